@@ -120,7 +120,9 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
     for (const Solver& solver : solvers()) {
         const std::optional<BestOf> one = bestOf(points, solver.kind, report.target);
         if (!one) continue;
-        if (!head) out << "\nan error of " << report.target << " costs, ns per vertex and simulated second\n";
+        if (!head)
+            out << "\nan error of " << report.target
+                << " of these molecules costs, ns per vertex and simulated second\n";
         head = true;
         out << "  " << std::left << std::setw(16) << solver.name << std::right << std::setw(10)
             << nanoseconds(one->cost.time) << "   " << name(one->method.sampling) << ", "

@@ -59,7 +59,7 @@ void addError(CLI::App& command, Options& options) {
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    addFile(command, "molecule", options.files,
+    addFile(command, "file", options.files,
             "Molecule file, or scene (.scene.json); one that is not there is begun")
         ->required()
         ->expected(1);

@@ -82,7 +82,7 @@ void addNew(CLI::App& command, Options& options) {
 
 void addShow(CLI::App& command, Options& options) {
     addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
-    addFile(command, "--capture", options.capture, "Picture to write (.png)")->required();
+    addFile(command, "--capture", options.capture, "Picture to write (.png), required")->required();
     command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)")
         ->type_name("WxH");
 }
@@ -132,7 +132,7 @@ void finishMaking(MoleculeOptions& molecule, const std::string& file, const char
 }  // namespace
 
 void addMolecule(CLI::App& app, Options& options) {
-    CLI::App* molecule = app.add_subcommand("molecule", "Make molecules");
+    CLI::App* molecule = app.add_subcommand("molecule", "Make and draw molecules");
     molecule->require_subcommand(1);
     addFromMesh(*molecule->add_subcommand("from-mesh", "Make a molecule, with its skin, from any mesh"),
                 options);
@@ -151,6 +151,7 @@ void finishMolecule(const CLI::App& app, Options& options) {
     if (molecule->get_subcommand("new")->parsed()) {
         options.command = moleculeNewCommand;
         options.molecule.output = options.files.front();
+        valueOf("--shape", [&] { return shapeNamed(options.molecule.shape); });
         finishMaking(options.molecule, options.files.front(), "molecule new");
     }
     if (molecule->get_subcommand("show")->parsed()) {

@@ -91,17 +91,23 @@ int listLength(double largest, double smallest) {
     return int(std::clamp(std::ceil(6 * ratio * ratio), 24.0, 96.0));
 }
 
+Location settingOf(const Scene& scene, const char* key) {
+    Location out = scene.contact.location;
+    if (!out.path.empty()) out.path += concat(".", key);
+    return out;
+}
+
 // What falls freely is not to rest.
 void checkRest(const Scene& scene, int steps) {
     const ContactSettings& settings = scene.contact;
     if (!settings.rest) return;
     if (settings.response != ContactResponse::simultaneous || settings.search != ContactSearch::exact)
-        throw Error(settings.location,
-                    "`rest` needs the exact search and the response of all that touch at once");
+        throw Error(settingOf(scene, "rest"),
+                    "\"rest\" needs the exact search and the response of all that touch at once");
     const double fall = glm::length(scene.gravity) / (scene.frameRate * steps);
     if (fall > 0 && *settings.rest > fall)
-        throw Error(settings.location,
-                    concat("`rest` of ", *settings.rest,
+        throw Error(settingOf(scene, "rest"),
+                    concat("\"rest\" of ", *settings.rest,
                            " m/s is more than what falls gains in a contact step, ", fall, " m/s"));
 }
 
@@ -169,10 +175,10 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
                                           scene.contact.fastest.value_or(0) / (scene.frameRate * out.steps));
     const double needed = 2 * out.reach;
     if (scene.contact.cell && *scene.contact.cell < needed)
-        throw Error(scene.contact.location,
+        throw Error(settingOf(scene, "cell"),
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
                            out.largestRadius, " m", scene.contact.fastest ? " and their way in a step" : "",
-                           ": at least ", needed, " m are needed"));
+                           ": without \"cell\" they are ", roundedUp(needed), " m wide"));
     out.cell = roundedUp(scene.contact.cell.value_or(needed));
     out.listLength = listLength(out.largestRadius, smallest);
     while ((int64_t(1) << out.tableBits) < 2 * spheres)

@@ -128,7 +128,7 @@ static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& gr
     return out;
 }
 
-static void tellContact(std::ostringstream& out, const Plan& plan) {
+static void tellContact(std::ostringstream& out, const Plan& plan, Path path) {
     const ContactPlan& contact = plan.contact;
     if (!contact.any()) return;
     out << "contact  " << contact.spheres << " spheres, found by the " << name(contact.settings.search)
@@ -137,8 +137,8 @@ static void tellContact(std::ostringstream& out, const Plan& plan) {
         << " iterations\n         up to " << contact.safeSpeed(1 / plan.frameRate)
         << " m/s relative to one another none passes through another between two contact steps\n";
     if (contact.settings.rest)
-        out << "         what moves more slowly than " << *contact.settings.rest
-            << " m/s rests, with compute shaders\n";
+        out << "         what moves more slowly than " << *contact.settings.rest << " m/s "
+            << (path == Path::fused ? "rests\n" : "would rest with compute shaders\n");
 }
 
 // Who steers by whom, and in which grids they are found.
@@ -169,7 +169,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         << mebibytes(plan.tableBytes()) << "\n";
     for (const std::string& grid : plan.grids)
         out << "         " << grid << "\n";
-    tellContact(out, plan);
+    tellContact(out, plan, choice.path);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         out << "\ngroup \"" << printable(group.name) << "\": " << many(group.count, "molecule", "molecules")

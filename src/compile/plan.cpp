@@ -232,11 +232,33 @@ void checkTurn(const Scene& scene, const Collider& collider) {
                        std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
 }
 
-// Warns where the spheres of a molecule leave a gap in its surface through which a like sphere passes.
-void warnOfGaps(const Scene& scene, Plan& plan) {
+// Warns of settings that no group or too few substeps use.
+void warnOfUnused(const Scene& scene, Plan& plan) {
+    const ContactSettings& asked = scene.contact;
+    if (asked.location.empty()) return;
+    if (!plan.contact.any())
+        plan.warnings.push_back(
+            {asked.location,
+             "no group has \"contact\", so that molecules pass through one another: "
+             "\"contact\": {\"radius\": 0.01} in a group gives its vertices spheres of 1 cm"});
+    else if (asked.steps > plan.contact.steps)
+        plan.warnings.push_back(
+            {asked.location, concat("contact of ", asked.steps, " steps runs ", plan.contact.steps,
+                                    " times a frame, once a substep")});
+}
+
+// Warns of spheres that are larger than their molecule, and where they leave a gap in its surface through
+// which a like sphere passes.
+void warnOfSpheres(const Scene& scene, Plan& plan) {
     for (const ContactGroup& contact : plan.contact.groups) {
         const GroupPlan& group = plan.groups[contact.group];
         const GroupContact& asked = *scene.groups[group.index].contact;
+        const double size = scene.groups[group.index].molecule.size();
+        if (group.vertexCount > 1 && asked.radius > size)
+            plan.warnings.push_back(
+                {asked.location,
+                 concat("the spheres of \"", group.name, "\", with a radius of ", asked.radius,
+                        " m, are larger than the molecule, which is ", size, " m long")});
         const ContactGap gap = largestGap(scene.groups[group.index].molecule, asked);
         if (gap.radius <= asked.radius) continue;
         plan.warnings.push_back(
@@ -375,7 +397,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
     plan.school = planSchools(scene, plan.groups);
-    warnOfGaps(scene, plan);
+    warnOfUnused(scene, plan);
+    warnOfSpheres(scene, plan);
     warnOfCrowds(scene, plan);
 
     const auto any = [&](bool Needs::*need) {

@@ -170,9 +170,9 @@ class Describe {
         return *this;
     }
     // The key before means something only where `key`, which stands before it, says one of the words.
-    Describe& only(const char* key, std::vector<std::string> words, std::string because) {
+    Describe& only(const char* key, std::vector<std::string> words) {
         EXPECTS(it_.find(key));
-        last().only.push_back({key, std::move(words), std::move(because)});
+        last().only.push_back({key, std::move(words)});
         return *this;
     }
     // Sets the default, in words, of the key before.

@@ -28,6 +28,14 @@ void checkNumbers(const Key& key, const glm::vec<N, double>& value, Range range,
             checkNumber(concat(key.name, "[", i, "]"), value[i], range, where, largest);
 }
 
+// As a file says it: "on": "vertices" or "surface".
+std::string text(const Condition& condition) {
+    std::vector<std::string> words;
+    for (const std::string& word : condition.words)
+        words.push_back(word == "true" ? word : concat("\"", word, "\""));
+    return concat("\"", condition.key, "\"", words.empty() ? "" : ": ", joined(words, " or "));
+}
+
 }  // namespace
 
 JsonValue Description::usualValue(const Key& key) const {
@@ -108,7 +116,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     for (const Key& key : keys_) {
         if (const Condition* condition = unmet(key, out)) {
             if (reader.has(key.name))
-                throw Error(reader.at(key.name), "\"", key.name, "\" ", condition->because);
+                throw Error(reader.at(key.name), "\"", key.name, "\" needs ", text(*condition));
             continue;
         }
         if (key.needed) reader.require(key.name);

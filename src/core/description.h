@@ -59,7 +59,6 @@ constexpr double largestNumber = 1e15;
 struct Condition {
     std::string key;
     std::vector<std::string> words;  // what it may say, "true" of a flag; none: it must be there
-    std::string because;             // goes on from the name of the key that means nothing
 };
 
 // The value of a key that a function beside the description reads: one value, or lists of them.

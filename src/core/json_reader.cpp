@@ -17,7 +17,7 @@ const char* name(JsonValue::Kind kind) {
 }
 
 // The message about a number outside a range.
-static std::string outside(Range range, const std::string& noun, const std::string& found) {
+static std::string outside(Range range, const std::string& noun, const std::string& text) {
     const auto digits = [&noun](double number) {  // a whole number in full: 16777216
         return noun == "a whole number" ? writeJsonLine(JsonValue::makeNumber(number)) : concat(number);
     };
@@ -27,7 +27,12 @@ static std::string outside(Range range, const std::string& noun, const std::stri
     if (above && !range.aboveLeast) out += concat(below ? " from " : " of at least ", digits(range.least));
     if (below && above) out += concat(range.aboveLeast ? " and at most " : " to ", digits(range.most));
     if (below && !above) out += concat(" of at most ", digits(range.most));
-    return out + ", found " + found;
+    return out + ", found " + text;
+}
+
+static const char* found(const JsonValue& value) {
+    if (value.kind == Kind::boolean) return value.boolean ? "true" : "false";
+    return name(value.kind);
 }
 
 // A number as it was written.
@@ -55,11 +60,12 @@ Location JsonReader::at(const std::string& key) const {
 
 void JsonReader::checkKind(const JsonValue& value, const std::string& path, Kind kind) const {
     if (value.kind != kind)
-        throw Error(locate(value, path), "expected ", name(kind), ", found ", name(value.kind));
+        throw Error(locate(value, path), "expected ", name(kind), ", found ", found(value));
 }
 
 void JsonReader::checkCount(const JsonValue& array, const std::string& path, size_t count) const {
-    checkKind(array, path, Kind::array);
+    if (array.kind != Kind::array)
+        throw Error(locate(array, path), "expected an array of ", count, " numbers, found ", found(array));
     if (array.items.size() != count)
         throw Error(locate(array, path), "expected an array of ", count, " numbers, found ",
                     array.items.size());

@@ -325,9 +325,10 @@ class Search {
         if (nearest == nullptr)
             throw Error(place, concat("--error ", options_.error, ": no method can run this scene: ",
                                       runs_.empty() ? "none is left" : runs_.front().candidate.why));
-        throw Error(place, concat("--error ", options_.error, " is out of reach: the nearest is ",
+        throw Error(place, concat("--error ", options_.error,
+                                  " is out of reach for a sample of its molecules: the nearest is ",
                                   name(nearest->method.solver), " with ", nearest->substeps,
-                                  " substeps of a frame, fields by ", name(nearest->method.sampling),
+                                  " substeps a frame, fields by ", name(nearest->method.sampling),
                                   ", which has an error of ", *nearest->error,
                                   nearest->worst ? concat(" RMS and ", *nearest->worst, " at worst") : ""));
     }

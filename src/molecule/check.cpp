@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/error.h"
 #include "molecule/analysis.h"
@@ -188,15 +189,36 @@ class Checker {
                 (a < b ? edge.forward : edge.backward).push_back(i);
             }
         }
-        // With three and more triangles at an edge, as in a cross, no facing is wrong.
+        std::vector<Disagreement> disagreements;
+        std::vector<int> times(m_.triangles.size());
         for (const auto& [ends, edge] : edges) {
             const std::vector<size_t>& same = edge.forward.empty() ? edge.backward : edge.forward;
             if (edge.forward.size() + edge.backward.size() != 2 || same.size() != 2) continue;
-            const size_t turned = same[1];
-            findTriangle(
-                Kind::flipped, turned,
-                concat("triangle ", turned, " faces the other way than its neighbour ", same[0],
-                       " across the edge ", ends.first, "-", ends.second, ": swap two of its vertices"))
+            disagreements.push_back({same[0], same[1], ends});
+            ++times[same[0]];
+            ++times[same[1]];
+        }
+        findFlipped(disagreements, times);
+    }
+
+    // Two triangles that face different ways, and the edge between them.
+    struct Disagreement {
+        size_t a, b;
+        std::pair<int, int> ends;
+    };
+
+    // Of two triangles that disagree, the one that disagrees with more neighbours is wrong. With three and
+    // more triangles at an edge, as in a cross, none is.
+    void findFlipped(const std::vector<Disagreement>& disagreements, const std::vector<int>& times) {
+        std::set<size_t> told;
+        for (const Disagreement& one : disagreements) {
+            const bool first = times[one.a] > times[one.b];
+            const size_t turned = first ? one.a : one.b;
+            if (!told.insert(turned).second) continue;
+            findTriangle(Kind::flipped, turned,
+                         concat("triangle ", turned, " faces the other way than its neighbour ",
+                                first ? one.b : one.a, " across the edge ", one.ends.first, "-",
+                                one.ends.second, ": swap two of its vertices"))
                 .mendBy("Turn it round", [turned](Draft& draft) {
                     Triangle& t = draft.molecule.triangles[turned];
                     std::swap(t.b, t.c);

@@ -251,7 +251,6 @@ const Description& describe(const Material*) {
     static const auto writeColor = [](const M& material, const void*) {
         return JsonValue::makeVector(material.color);
     };
-    const std::string order = "is of the blend alpha: only what has it needs an order";
     static const Description it =
         Describe<M>("material", "How a molecule looks.")
             .color("color", &M::color, {"", "Its colour, which multiplies the texture.", share})
@@ -278,17 +277,16 @@ const Description& describe(const Material*) {
                    "How it is laid over what lies behind: with its opacity, added to it, or as a filter of "
                    "its colour."})
             .key("opacity", &M::opacity, {"", "How much it covers.", share})
-            .only("blend", {"alpha", "additive", "multiplicative"},
-                  "needs a blend: alpha, additive or multiplicative")
+            .only("blend", {"alpha", "additive", "multiplicative"})
             .word("sort", &M::sort, sortWords(),
                   {"",
                    "Whether molecules are drawn as they are numbered, sorted from back to front in every "
                    "frame, or sorted a little in every frame."})
-            .only("blend", {"alpha"}, order)
+            .only("blend", {"alpha"})
             .key("spreadFrames", &M::spreadFrames,
                  {"", "Over how many frames one sort is spread.", Range::between(1, mostSpreadFrames)})
-            .only("blend", {"alpha"}, order)
-            .only("sort", {"spread"}, "is of the sort spread");
+            .only("blend", {"alpha"})
+            .only("sort", {"spread"});
     return it;
 }
 

@@ -15,15 +15,18 @@ namespace shoal {
 using Clock = std::chrono::steady_clock;
 
 Progress::Progress(const std::string& what, int total)
-    : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {}
+    : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {
+    if (terminal_) print();
+}
 
 Progress::~Progress() {
-    if (terminal_ && done_ > 0) std::fputc('\n', stderr);
+    if (terminal_) std::fputc('\n', stderr);
 }
 
 void Progress::step() {
     ++done_;
     const Clock::time_point now = Clock::now();
+    if (done_ == 1) firstDone_ = now;
     if (terminal_ && (done_ == total_ || now - printed_ > std::chrono::milliseconds(100))) {
         printed_ = now;
         print();
@@ -38,12 +41,16 @@ void Progress::step() {
 void Progress::rename(std::string what) {
     if (terminal_) what.resize(std::max(what.size(), what_.size()), ' ');  // over what is longer
     what_ = printable(what);
-    if (terminal_ && done_ > 0) print();
+    if (terminal_) print();
 }
 
 void Progress::print() {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double left = seconds / done_ * (total_ - done_);
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    // the first step has what is done once: drivers compile in it
+    const double since =
+        done_ > 1 ? std::chrono::duration<double>(now - firstDone_).count() / (done_ - 1) : seconds;
+    const double left = since * (total_ - done_);
     if (!terminal_) {
         const std::string time = left < 1 ? "less than 1 s" : concat("about ", roughly(left));
         const std::string rest = done_ < total_ ? concat(", ", time, " left") : "";
@@ -53,8 +60,9 @@ void Progress::print() {
     constexpr int width = 32;
     std::string bar(size_t(width * done_ / total_), '#');
     bar.resize(width, '.');
-    std::fprintf(stderr, "\r%s [%s] %d/%d  %s left   ", what_.c_str(), bar.c_str(), done_, total_,
-                 done_ < total_ ? roughly(left).c_str() : "0 s");
+    const std::string rest =
+        done_ == 0 ? "starting" : concat(done_ < total_ ? roughly(left) : "0 s", " left");
+    std::fprintf(stderr, "\r%s [%s] %d/%d  %s   ", what_.c_str(), bar.c_str(), done_, total_, rest.c_str());
     std::fflush(stderr);
 }
 

@@ -26,7 +26,7 @@ class Progress {
     std::string what_;
     int total_, done_ = 0, printedTenth_ = 0;
     bool terminal_;
-    std::chrono::steady_clock::time_point start_, printed_;
+    std::chrono::steady_clock::time_point start_, firstDone_, printed_;
 };
 
 // Shows the baking of distance fields when it takes long.

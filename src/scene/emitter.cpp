@@ -124,7 +124,6 @@ const Description& describe(const Burst*) {
 
 const Description& describe(const Emitter*) {
     using E = Emitter;
-    const std::string round = "is of discs and spheres", dead = "is of emitters that do not wait for deaths";
     static const Description it =
         Describe<E>("emitter", "What molecules or particles of the group are born from.")
             .location(&E::location)
@@ -135,53 +134,53 @@ const Description& describe(const Emitter*) {
                    "group dies."})
             .needed()
             .key("position", &E::position, {"m", "The point, or the middle; a disc lies across `direction`."})
-            .only("from", {"point", "disc", "sphere"}, "is of points, discs and spheres")
+            .only("from", {"point", "disc", "sphere"})
             .key("start", &E::lineFrom, {"m", "One end of the line."})
             .needed()
-            .only("from", {"line"}, "is of lines")
+            .only("from", {"line"})
             .key("end", &E::lineTo, {"m", "The other end of the line."})
             .needed()
-            .only("from", {"line"}, "is of lines")
+            .only("from", {"line"})
             .key("radius", &E::radius, {"m", "The radius.", aboveZero(), {0.001, 5, true}})
             .needed()
-            .only("from", {"disc", "sphere"}, round)
+            .only("from", {"disc", "sphere"})
             .key("hollow", &E::hollow,
                  {"", "The share of the radius that is left out; 1 leaves only the rim.",
                   Range::between(0, 1)})
-            .only("from", {"disc", "sphere"}, round)
+            .only("from", {"disc", "sphere"})
             .box("box", &E::box, {"m", "The box; where its sides agree, a patch or a line."}, true)
             .needed()
-            .only("from", {"box"}, "is of boxes")
+            .only("from", {"box"})
             .byHand<const SceneReading>(
                 "model", {}, {"the name of a model", "The model, of which every triangle emits by its area."},
                 readModel, writeModel)
             .needed()
-            .only("from", {"surface"}, "is of surfaces")
+            .only("from", {"surface"})
             .key("select", &E::select, {"", "Which part of the model; all of it without."})
-            .only("from", {"surface"}, "is of surfaces")
+            .only("from", {"surface"})
             .key("of", &E::group, {"the name of a group", "The group from whose deaths they are born."})
             .needed()
-            .only("from", {"death"}, "is of deaths")
+            .only("from", {"death"})
             .key("count", &E::perDeath,
                  {"", "How many are born of each death.", Range::between(1, 1024), {1, 64}})
-            .only("from", {"death"}, "is of deaths")
+            .only("from", {"death"})
             .key("rate", &E::rate,
                  {"1/s",
                   "How many are born a second, evenly spaced in time, within frames as well.",
                   Range::atLeast(0),
                   {0, 1000, true}})
-            .only("from", bySchedule, dead)
+            .only("from", bySchedule)
             .writes(writeRate)
             .key("random", &E::random,
                  {"", "Whether they are born at random moments of that rate (Poisson)."})
-            .only("from", bySchedule, dead)
+            .only("from", bySchedule)
             .key("begin", &E::begin, {"s", "The time at which the rate begins.", Range::atLeast(0), {0, 60}})
-            .only("from", bySchedule, dead)
+            .only("from", bySchedule)
             .key("until", &E::end, {"s", "The time at which the rate ends.", Range::atLeast(0), {0, 60}})
-            .only("from", bySchedule, dead)
+            .only("from", bySchedule)
             .usually("for ever")
             .key("bursts", &E::bursts, {"", "Moments at which many are born."})
-            .only("from", bySchedule, dead)
+            .only("from", bySchedule)
             .word("along", &E::along, {"direction", "outward"},
                   {"",
                    "What the cone of their velocities is about: `outward` is from the middle of a disc or "
@@ -199,8 +198,7 @@ const Description& describe(const Emitter*) {
                  {"", "The share of the velocity of the emitter's `path`, or of what died.", {}, {-1, 2}})
             .writes(writeInherit)
             .key("path", &E::path, {"", "How the emitter moves, as a collider does."})
-            .only("from", {"point", "line", "disc", "sphere", "box"},
-                  "means nothing here: an emitter from a surface or from deaths does not move by itself")
+            .only("from", {"point", "line", "disc", "sphere", "box"})
             .derive(follow)
             .rule(checkEmitter, R"({"anyOf": [{"required": ["rate"]}, {"required": ["bursts"]},
                                               {"properties": {"from": {"const": "death"}}}]})");

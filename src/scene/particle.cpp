@@ -123,7 +123,6 @@ const Description& describe(const ColorKey*) {
 
 const Description& describe(const ParticleImage*) {
     using P = ParticleImage;
-    const std::string flip = "is of flip-books: \"flipBook\" is not true";
     static const Description it =
         Describe<P>("image", "An image, cut into tiles of the same size.")
             .byHand("file", {.notEmpty = true}, {"the name of a PNG with alpha", "The image."}, readFileOf,
@@ -148,9 +147,9 @@ const Description& describe(const ParticleImage*) {
                   "How fast the flip-book goes, over and over; 0: once, over the particle's life.",
                   Range::between(0, mostFrameRate),
                   {0, 60}})
-            .only("flipBook", {"true"}, flip)
+            .only("flipBook", {"true"})
             .key("blend", &P::blend, {"", "Whether neighbouring frames fade into one another."})
-            .only("flipBook", {"true"}, flip)
+            .only("flipBook", {"true"})
             .derive(checkPixels)
             .rule(checkImage, R"({"not": {"required": ["tile", "tiles"]}})");
     return it;
@@ -158,10 +157,6 @@ const Description& describe(const ParticleImage*) {
 
 const Description& describe(const ParticleType*) {
     using P = ParticleType;
-    const std::string quads = "is of the shape quads: the others face the camera";
-    const std::string dots = "does not show on the shape points, round dots of a fixed number of \"pixels\"";
-    const std::string along = "has no effect: facing velocity, a particle points where it goes";
-    const std::string order = "is of the blend alpha: the others need no order";
     const Range turns = Range::between(-mostParticleTurn, mostParticleTurn);
     const std::vector<std::string> sized = {"sprites", "quads"};
     constexpr double round = 6.283185307179586;
@@ -175,63 +170,61 @@ const Description& describe(const ParticleType*) {
                    "and facing."})
             .key("pixels", &P::pixels,
                  {"pixels", "The diameter of a dot.", Range::between(1, mostParticlePixels)})
-            .only("shape", {"points"}, "is of the shape points: others have a \"size\" in metres")
+            .only("shape", {"points"})
             .span("size", &P::size,
                   {"m",
                    "The diameter, random between the two.",
                    Range::between(leastParticleSize, mostParticleSize),
                    {0.0005, 1, true}})
-            .only("shape", sized, dots)
+            .only("shape", sized)
             .ends("growth", &P::growth,
                   {"",
                    "The factors on the size at birth and at the end of life.",
                    Range::between(0, mostParticleSize),
                    {0, 4}})
-            .only("shape", sized, dots)
+            .only("shape", sized)
             .word("facing", &P::facing, facingWords,
                   {"",
                    "Whether it turns about the line of sight, points along its velocity, or turns in space."})
-            .only("shape", {"quads"}, quads)
+            .only("shape", {"quads"})
             .key("stretch", &P::stretch,
                  {"s",
                   "The length grows by this times the speed across the view.",
                   Range::between(0, mostParticleSize),
                   {0, 0.5, true}})
-            .only("shape", {"quads"}, quads)
-            .only("facing", {"velocity"}, "is of the facing velocity")
+            .only("shape", {"quads"})
+            .only("facing", {"velocity"})
             .span("turn", &P::turn,
                   {"rad", "The turn at birth, random between the two.", turns, {-round, round}})
-            .only("shape", sized, dots)
-            .only("facing", {"camera", "free"}, along)
+            .only("shape", sized)
+            .only("facing", {"camera", "free"})
             .span("spin", &P::spin,
                   {"rad/s", "How fast it turns, random between the two.", turns, {-2 * round, 2 * round}})
-            .only("shape", sized, dots)
-            .only("facing", {"camera", "free"}, along)
+            .only("shape", sized)
+            .only("facing", {"camera", "free"})
             .key("colors", &P::colors, {"", "Its colours over its life, 1 to 4 keyframes."})
             .usually("white")
             .key("image", &P::image, {"", "What it shows; a round dot with a soft edge without it."})
-            .only("shape", sized, dots)
+            .only("shape", sized)
             .word("blend", &P::blend, blendWords(), {"", "How it meets what is drawn behind it."})
             .word("sort", &P::sort, sortWords(),
                   {"", "How particles come into the order from back to front."})
-            .only("blend", {"alpha"}, order)
+            .only("blend", {"alpha"})
             .key("spreadFrames", &P::spreadFrames,
                  {"",
                   "Over how many frames one sort is spread.",
                   Range::between(1, mostSpreadFrames),
                   {1, 60}})
-            .only("blend", {"alpha"}, order)
-            .only("sort", {"spread"}, "is of the sort spread")
+            .only("blend", {"alpha"})
+            .only("sort", {"spread"})
             .key("softness", &P::softness,
                  {"m",
                   "It fades where a surface is nearer than this behind it.",
                   Range::between(0, mostParticleSize),
                   {0, 1, true}})
-            .only("blend", {"alpha", "additive", "multiplicative"},
-                  "needs a blend: what is not blended does not fade")
+            .only("blend", {"alpha", "additive", "multiplicative"})
             .key("lit", &P::lit, {"", "Whether sun and sky light it; else it sends its own colour."})
-            .only("blend", {"none", "alpha", "additive"},
-                  "has no effect: what is multiplied with what is behind sends no light")
+            .only("blend", {"none", "alpha", "additive"})
             .rule(checkType, R"({"properties": {"colors": {"minItems": 1, "maxItems": 4}}})");
     return it;
 }

@@ -41,7 +41,6 @@ const Description& describe(const Placement*) {
             throw Error(where.at("align"),
                         "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
     };
-    const std::string model = "is of the places \"vertices\" and \"surface\"", grid = "is of grids";
     static const Description it =
         Describe<P>("place", "Where molecules start, and how they stand.")
             .word("on", &P::kind, {"vertices", "surface", "volume", "grid", "list"},
@@ -51,24 +50,24 @@ const Description& describe(const Placement*) {
             .needed()
             .byHand<const SceneReading>("model", {}, {"the name of a model", "The model."}, readModel)
             .needed()
-            .only("on", {"vertices", "surface"}, model)
+            .only("on", {"vertices", "surface"})
             .key("select", &P::select, {"", "Which part of the model; all of it without."})
-            .only("on", {"vertices", "surface"}, model)
+            .only("on", {"vertices", "surface"})
             .box("box", &P::box, {"m", "The box, which may be flat."}, true)
             .needed()
-            .only("on", {"volume"}, "is of volumes")
+            .only("on", {"volume"})
             .key("origin", &P::origin, {"m", "The first place of the grid."})
-            .only("on", {"grid"}, grid)
+            .only("on", {"grid"})
             .key("spacing", &P::spacing, {"m", "The distances between places along x, y and z."})
             .needed()
-            .only("on", {"grid"}, grid)
+            .only("on", {"grid"})
             .key("cells", &P::cells,
                  {"", "How many there are along x, y and z.", Range::between(1, maxGroupCount)})
             .needed()
-            .only("on", {"grid"}, grid)
+            .only("on", {"grid"})
             .key("items", &P::items, {"", "One molecule an item; `align` does not change how they stand."})
             .needed()
-            .only("on", {"list"}, "is of lists")
+            .only("on", {"list"})
             .word(
                 "align", &P::align, {"none", "up", "normal"},
                 {"", "The axis that the molecule's +Y follows: its own, straight up, or the model's normal."})

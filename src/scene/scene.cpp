@@ -56,7 +56,7 @@ const Description& describe(const ContactSettings*) {
                    "miss some."})
             .key("neighbors", &S::neighbors,
                  {"", "How many places to either side UberFlow's searches look at.", Range::between(1, 64)})
-            .only("search", {"single", "staggered"}, "is of the other searches: the exact search finds all")
+            .only("search", {"single", "staggered"})
             .word("response", &S::response, responseWords,
                   {"", "Whether all that touch respond at once, or, as UberFlow's, the nearest alone."})
             .key(
@@ -73,8 +73,8 @@ const Description& describe(const ContactSettings*) {
                   aboveZero()})
             .key("cell", &S::cell,
                  {"m",
-                  "The size of a cell, at least four times the largest radius, and more with `fastest`; "
-                  "without it as large as is needed.",
+                  "The size of a cell, at least 4.1 times the largest radius, and more with `fastest`; "
+                  "best left out: cells are then as large as is needed.",
                   aboveZero()});
     return it;
 }

@@ -25,7 +25,7 @@ const Description& describe(const Selection*) {
                    {"", "The vertex colour; OBJ and PLY files have sRGB, which is made linear first."})
             .key("colorTolerance", &S::colorTolerance,
                  {"", "How far each channel of the colour may be off.", Range::atLeast(0)})
-            .only("color", {}, "needs a color")
+            .only("color", {})
             .key("minHeight", &S::minHeight, {"m", "The lowest y."})
             .key("maxHeight", &S::maxHeight, {"m", "The highest y."})
             .key("maxThickness", &S::maxThickness, {"m", "The largest local thickness.", aboveZero()})

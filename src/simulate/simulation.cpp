@@ -26,7 +26,7 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
       path_(makePath(shaderRoot)) {
     if (plan_.contact.settings.rest && choice_.path != Path::fused)
         warnings_.push_back(
-            {{}, "molecules come to rest in compute shaders alone: `rest` changes nothing here"});
+            {{}, "molecules come to rest in compute shaders alone: \"rest\" changes nothing here"});
     parameters = parametersOf(plan_);
     restart();
 }

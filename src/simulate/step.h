@@ -1,4 +1,4 @@
-// A frame in the numbers that both paths hand to their shaders, and those of them that can be changed while a
+// A frame in the numbers that all paths hand to their shaders, and those of them that can be changed while a
 // simulation runs: no change of these compiles a shader or moves state.
 #pragma once
 

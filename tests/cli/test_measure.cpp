@@ -108,7 +108,7 @@ TEST_CASE("measure prints a table, says what it did otherwise, and plots", "[cli
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Catch::Contains("leapfrog, vertexSubstep") && Catch::Contains("median ns") &&
-                                Catch::Contains("an error of 0.001 costs") &&
+                                Catch::Contains("an error of 0.001 of these molecules costs") &&
                                 Catch::Contains("pins are held throughout") && Catch::Contains("chosen"));
     CHECK_THAT(outcome.out, !Catch::Contains("vertexFrame"));
     if (gnuplot) CHECK(std::filesystem::file_size(scratch / "new/curve.svg") > 1000);
@@ -222,9 +222,10 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
     for (const char* bad : {"0", "-1e-3", "nan", "2"})
         refusal({"run", scene, "--headless", "--error", bad}, "--error: expected a relative error above 0");
     refusal({"explain", scene, "--error", "small"}, "--error: expected an error such as 1e-3");
-    const std::string message =
-        refusal({"explain", scene, "--error", "1e-4", "--solver", "euler", "--substeps", "8"},
-                "--error 0.0001 is out of reach: the nearest is euler with 8 substeps", cacheIn(scratch));
+    const std::string message = refusal(
+        {"explain", scene, "--error", "1e-4", "--solver", "euler", "--substeps", "8"},
+        "--error 0.0001 is out of reach for a sample of its molecules: the nearest is euler with 8 substeps",
+        cacheIn(scratch));
     CHECK_THAT(message, Catch::Contains("which has an error of") && Catch::Contains("shear.scene.json"));
 }
 

@@ -239,8 +239,8 @@ TEST_CASE("rest that cannot be is refused", "[rest]") {
     Scene scene = marbles({{0, 0.05, 0}});
     scene.contact.rest = 0.1;
     CHECK_THAT(messageOf([&] { (void)compile(scene); }),
-               Catch::Contains("`rest` of 0.1 m/s is more than what falls gains in a contact step"));
+               Catch::Contains("\"rest\" of 0.1 m/s is more than what falls gains in a contact step"));
     scene.contact.rest = 0.01;
     scene.contact.search = ContactSearch::single;
-    CHECK_THAT(messageOf([&] { (void)compile(scene); }), Catch::Contains("`rest` needs the exact search"));
+    CHECK_THAT(messageOf([&] { (void)compile(scene); }), Catch::Contains("\"rest\" needs the exact search"));
 }

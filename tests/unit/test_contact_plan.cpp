@@ -80,9 +80,30 @@ TEST_CASE("the largest gap of a triangle is that of its circumcircle", "[contact
     CHECK(largestGap(molecule, contact).triangle == -1);
 }
 
+TEST_CASE("contact that is probably not meant is warned of", "[contact plan]") {
+    const auto warns = [](const Scene& scene, const char* text) {
+        for (const Warning& warning : compile(scene).warnings)
+            if (warning.message.find(text) != std::string::npos) return true;
+        return false;
+    };
+    Scene scene = leavesOf(0.05);
+    scene.contact.location = {"s.json", 1, 1, "$.contact"};
+    scene.solver.substeps = 4;
+    scene.contact.steps = 4;
+    CHECK_FALSE(warns(scene, "contact"));
+    CHECK_FALSE(warns(scene, "larger than the molecule"));
+    scene.contact.steps = 8;
+    CHECK(warns(scene, "8 steps runs 4 times a frame"));
+    CHECK(warns(leavesOf(25), "larger than the molecule"));
+    scene.groups[0].contact.reset();
+    CHECK(warns(scene, "no group has \"contact\""));
+}
+
 TEST_CASE("contact's mistakes are told", "[contact plan]") {
     Scene scene = leavesOf(0.1);
     scene.contact.cell = 0.3;
+    scene.contact.location = {"s.json", 1, 1, "$.contact"};
+    CHECK(messageOf([&] { compile(scene); }).find("$.contact.cell") != std::string::npos);
     CHECK(messageOf([&] { compile(scene); }).find("do not hold spheres of radius") != std::string::npos);
     const test::Scratch scratch;
     const auto complaint = [&](const std::string& contact, const std::string& settings = "") {
@@ -95,7 +116,7 @@ TEST_CASE("contact's mistakes are told", "[contact plan]") {
     CHECK(complaint("{}").find("radius") != std::string::npos);
     CHECK(complaint("{\"radius\": 0}").find("at least 1e-09") != std::string::npos);
     CHECK(complaint("{\"radius\": 0.1, \"neighbors\": 3}").find("neighbors") != std::string::npos);
-    CHECK(complaint("{\"radius\": 0.1}", "{\"neighbors\": 3}").find("exact search finds all") !=
+    CHECK(complaint("{\"radius\": 0.1}", "{\"neighbors\": 3}").find("\"search\": \"single\" or") !=
           std::string::npos);
     CHECK(complaint("{\"radius\": 0.1}", "{\"search\": \"exakt\"}").find("exact") != std::string::npos);
     CHECK(complaint("{\"radius\": 0.1}", "{\"search\": \"single\", \"neighbors\": 3}").empty());

@@ -171,7 +171,7 @@ TEST_CASE("what makes no sense of an emitter is refused where it stands", "[life
         Contains("outward"));
     CHECK_THAT(error(R"("from": "surface", "model": "hill", "rate": 1,
                         "path": {"keyframes": [{"time": 0}, {"time": 1}]})"),
-               Contains("does not move"));
+               Contains("\"path\" needs \"from\": \"point\" or"));
 }
 
 TEST_CASE("deaths that emit in a circle, of the immortal, or into a book on the CPU are refused", "[life]") {

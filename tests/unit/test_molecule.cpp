@@ -226,6 +226,9 @@ TEST_CASE("what is probably not meant gets a warning", "[molecule]") {
     CHECK(
         warns(withTriangles("[0, 1, 2], [0, 3, 2]"), "triangle 1 faces the other way than its neighbour 0"));
     CHECK_FALSE(warns(withTriangles("[0, 1, 2], [0, 2, 3]"), "faces the other way"));
+    const std::string oneTurned = withTriangles("[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]");
+    CHECK(warns(oneTurned, "triangle 0 faces the other way"));
+    CHECK_FALSE(warns(oneTurned, "triangle 1 faces the other way"));
     CHECK(warns(withSprings(R"({"a": 0, "b": 1, "restLength": 2})"),
                 "restLength 2 is far from the drawn distance 1"));
     CHECK_FALSE(warns(withSprings(R"({"a": 0, "b": 1, "restLength": 1.05})"), "restLength"));
@@ -301,9 +304,11 @@ TEST_CASE("a material says how it is blended", "[molecule]") {
 
     CHECK(mentions(refusal(with(R"("blend": "alfa")")), "alpha"));
     CHECK(mentions(refusal(with(R"("blend": "alpha", "opacity": 1.5)")), "opacity"));
-    CHECK(mentions(refusal(with(R"("opacity": 0.5)")), "needs a blend"));
-    CHECK(mentions(refusal(with(R"("blend": "additive", "sort": "frame")")), "needs an order"));
-    CHECK(mentions(refusal(with(R"("blend": "alpha", "spreadFrames": 5)")), "is of the sort spread"));
+    CHECK(mentions(refusal(with(R"("opacity": 0.5)")), "\"opacity\" needs \"blend\": \"alpha\" or"));
+    CHECK(mentions(refusal(with(R"("blend": "additive", "sort": "frame")")),
+                   "\"sort\" needs \"blend\": \"alpha\""));
+    CHECK(mentions(refusal(with(R"("blend": "alpha", "spreadFrames": 5)")),
+                   "\"spreadFrames\" needs \"sort\": \"spread\""));
     CHECK(
         mentions(refusal(with(R"("blend": "alpha", "sort": "spread", "spreadFrames": 0)")), "spreadFrames"));
 

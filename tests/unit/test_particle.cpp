@@ -182,7 +182,7 @@ TEST_CASE("particles: bad images are refused", "[particle]") {
     refused(tiles + R"("tiles": [3])", "image.tiles)", "found 1 number");
     refused(tiles + R"("tile": 1, "tiles": [0, 1])", "image.tiles)", "one of the two");
     refused(tiles + R"("tile": 1, "flipBook": true)", "image.flipBook)", "at least two tiles");
-    refused(tiles + R"("frameRate": 10)", "image.frameRate)", "is of flip-books");
+    refused(tiles + R"("frameRate": 10)", "image.frameRate)", "needs \"flipBook\": true");
     refused(tiles + R"("flipBook": true, "frameRate": -1)", "image.frameRate)", "from 0 to 1000");
     refused(R"("file": "puffs.png", "columns": 0)", "image.columns)", "from 1 to 64");
 }

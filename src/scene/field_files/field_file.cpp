@@ -205,7 +205,7 @@ const Description& describe(const FileSequence*) {
             .key("step", &F::step, {"", "The step between the numbers.", Range::atLeast(1)})
             .key("frameRate", &F::frameRate, {"Hz", "Files a second; required without `times`.", aboveZero()})
             .key("start", &F::start, {"s", "The time of the first file."})
-            .only("frameRate", {}, "is with a \"frameRate\"")
+            .only("frameRate", {})
             .byHand("times", {.of = Form::Of::number, .lists = {{.least = 2}}},
                     {"list of numbers, s", "The times of the files, rising, instead of `frameRate`."},
                     readTimes)

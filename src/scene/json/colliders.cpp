@@ -100,7 +100,6 @@ void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
 
 static const Description& describe(const HeightSource*) {
     using H = HeightSource;
-    const std::string image = "is of an image", model = "is of a model";
     static const Description it =
         Describe<H>("source", "Where heights come from.")
             .key("image", &H::image,
@@ -108,20 +107,20 @@ static const Description& describe(const HeightSource*) {
                   "The heights, of 8 or 16 bits; the left column is the lowest x, the top row the lowest z."})
             .key("low", &H::low, {"m", "The x and z of the first sample."})
             .needed()
-            .only("image", {}, image)
+            .only("image", {})
             .key("high", &H::high, {"m", "The x and z of the last sample."})
             .needed()
-            .only("image", {}, image)
+            .only("image", {})
             .key("heights", &H::heights, {"m", "The heights of black and of white."})
             .needed()
-            .only("image", {}, image)
+            .only("image", {})
             .key("model", &H::model,
                  {"the name of a model",
                   "The model whose highest surface counts, over its bounding box; samples without a surface "
                   "take its lowest height."})
             .key("resolution", &H::resolution,
                  {"", "The number of samples along x and along z.", Range::between(2, 4096)})
-            .only("model", {}, model);
+            .only("model", {});
     return it;
 }
 

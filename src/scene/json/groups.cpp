@@ -59,6 +59,8 @@ void readDrag(JsonReader& r, Group& group, void*) {
         describe(&group.drag).read(*parts, group.drag);
         return parts->finish();
     }
+    if (value && value->kind != JsonValue::Kind::number)
+        throw Error(r.at("drag"), "expected a number, or an object of \"normal\" and \"tangent\"");
     r.get("drag", group.drag.normal, Range::atLeast(0));
     group.drag.tangent = group.drag.normal;
 }
@@ -201,7 +203,7 @@ const Description& describe(const Group*) {
             .of(describe(static_cast<const Drag*>(nullptr)))
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
-            .only("held", {"true"}, "means nothing: \"held\" is false, so pins are free from the start")
+            .only("held", {"true"})
             .key("stiffness", &G::stiffness,
                  {"", "What multiplies the stiffness of every spring.", Range::atLeast(0)})
             .key("damping", &G::damping,
