@@ -5,7 +5,7 @@
 #ifdef AMONG_RESTING
 #include "contact/recalled.glsl"
 
-// What an impact further away has woken touches what it did.
+// A molecule that an impact further away has woken has not moved yet: it touches what it did.
 void recall(int slot)
 {
     ownSlot = slot;

@@ -3,7 +3,7 @@
 uniform UINTS oldCounts;
 #endif
 
-layout(location = 0) out uvec4 newCounts;  // x contacts; y those left out so far, of whatever had this slot
+layout(location = 0) out uvec4 newCounts;  // x contacts; y those left out so far, summed over all that have had this slot
 layout(location = 1) out uvec4 newLists[LIST / 4];
 
 void main()

@@ -6,8 +6,8 @@ uniform ENTRIES oldAnchors;  // Entry::anchor
 #ifdef TEXTURES
 uniform UINTS oldSlots;      // of a sphere
 uniform UINTS oldCounts;     // by slot, as `counts`
-uniform FLOATS oldKnown;     // by slot: xyz the sum of what its contacts remember, N s, which has acted as a force since; w which
-                             // part of what colliders pushed that holds
+uniform FLOATS oldKnown;     // by slot: xyz the sum of what its contacts remember, N s, which has acted as a force since; w the
+                             // part of the colliders' last pushes that is remembered
 
 int memoryOf(int sphere)
 {
@@ -24,8 +24,9 @@ bool remembersAt(int memory)
     return (fetch(oldCounts, memory).x & ~RESPONDS) != 0u;
 }
 #else
-// By sphere: xyz that sum; w how many contacts it remembers, and a half where a collider pushes, or from contact/prepare.comp to
-// contact/settle.comp how much colliders pushed at first, N s.
+// By sphere: xyz the sum of what its contacts remember, N s, which has acted as a force since. w has two meanings: between two steps
+// the number of contacts that it remembers, plus a half where a collider pushes; from contact/prepare.comp to contact/settle.comp how
+// much colliders pushed at first, N s.
 layout(std430, binding = 3) buffer Known { vec4 known[]; };
 
 int memoryOf(int sphere)

@@ -2,7 +2,7 @@
 #include "contact/touching.glsl"
 #include "contact/prepare.glsl"
 #ifdef WALLS
-// By sphere, each now and an iteration before, or between two steps its collider's normal.
+// By sphere, two texels a collider: its push, and that of the iteration before or, between two steps, its normal.
 layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };
 #endif
 

@@ -33,7 +33,7 @@ uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since t
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
-layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // those before them, then the next
+layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // read as the ones before, written as the next
 #ifndef SPREAD
 uniform float nextMomentum;  // of the next iteration
 

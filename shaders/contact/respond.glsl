@@ -30,7 +30,7 @@ struct Meeting {
     Sphere sphere;  // the other
     vec3 apart;     // m, from its centre to this one's
     PairContact contact;
-    bool meets;     // both lists hold it, and one of the spheres is free
+    bool meets;     // both lists hold it, or the other sphere rests and has none; and one of the two is free
     vec2 material;  // x restitution, y friction
 #ifdef BODIES
     BodySphere body;

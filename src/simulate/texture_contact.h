@@ -53,7 +53,8 @@ class ContactState {
 class TextureContact : public ContactPasses<ContactState> {
   public:
     static constexpr int longestList = ContactPlan::fragmentList;
-    static constexpr int entriesADraw = 8;  // draw buffers that OpenGL 3.3 promises
+    // OpenGL 3.3 promises eight draw buffers: relax draws so many entries at once, and prepare half as many.
+    static constexpr int entriesADraw = 8;
 
     // Borrows the plan and the tables; `state`: only for its defines. Blending, tests and masks are off in a
     // step. Error: out of memory; the driver refuses a shader.
