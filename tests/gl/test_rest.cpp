@@ -230,7 +230,7 @@ TEST_CASE("where nothing rests a warning says so", "[rest]") {
     const Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
                                 {.drawn = false, .path = Path::pingPong});
     REQUIRE(simulation.warnings().size() == 1);
-    CHECK_THAT(simulation.warnings()[0].message, Catch::Contains("`rest` changes nothing here"));
+    CHECK_THAT(simulation.warnings()[0].message, Catch::Contains("\"rest\" changes nothing here"));
     if (!canFuse()) return;
     CHECK(fusedOf(scene).warnings().empty());
 }
