@@ -1,6 +1,6 @@
 // The list of a slot's contacts, of which it holds LIST at most (set by C++). `counts`: how many a slot has, which may be more
-// than its list holds, with the flags of contact/flags.glsl. What is kept of an entry lies at e * listStride + slot, or with TEXTURES in layer e; the
-// lists themselves lie there four entries to a texel.
+// than its list holds, with the flags of contact/flags.glsl. What is kept of an entry lies at e * listStride + slot, or with TEXTURES
+// in layer e; the lists themselves lie there four entries to a texel.
 uniform UINTS counts;
 
 #ifdef TEXTURES

@@ -14,7 +14,8 @@ uniform bool last;
 
 void wakePartners(int sphere)
 {
-    for (int e = 0; e < oldCount(sphere); ++e) {
+    int listed = oldCount(sphere);
+    for (int e = 0; e < listed; ++e) {
         int slot = oldPartner(sphere, e);
         if (rested(slot) && !marksWoken(marks[slot]))
             mark(slot, last ? BESIDE : STRUCK << (contactsAway + 1));

@@ -232,7 +232,7 @@ void checkTurn(const Scene& scene, const Collider& collider) {
                        std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
 }
 
-// Warns of settings that no group or too few substeps use.
+// Warns of contact that no group takes part in, and of more steps of it than substeps.
 void warnOfUnused(const Scene& scene, Plan& plan) {
     const ContactSettings& asked = scene.contact;
     if (asked.location.empty()) return;

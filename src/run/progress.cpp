@@ -48,9 +48,9 @@ void Progress::print() {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     // the first step has what is done once: drivers compile in it
-    const double since =
+    const double perStep =
         done_ > 1 ? std::chrono::duration<double>(now - firstDone_).count() / (done_ - 1) : seconds;
-    const double left = since * (total_ - done_);
+    const double left = perStep * (total_ - done_);
     if (!terminal_) {
         const std::string time = left < 1 ? "less than 1 s" : concat("about ", roughly(left));
         const std::string rest = done_ < total_ ? concat(", ", time, " left") : "";

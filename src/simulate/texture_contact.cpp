@@ -205,10 +205,14 @@ void TextureContact::drawAll(const Into& into) {
     draw(into, 0, rowsOf(contact_->spheres));
 }
 
+int TextureContact::spheresIn(const ContactGroup& group) const {
+    return plan_->groups[group.group].count * group.spheresOf;
+}
+
 void TextureContact::drawGroup(const Into& into, size_t group) {
     const ContactGroup& contact = contact_->groups[group];
     const int first = contact.firstSphere >> rowBits_;
-    const int end = rowsOf(contact.firstSphere + plan_->groups[contact.group].count * contact.spheresOf);
+    const int end = rowsOf(contact.firstSphere + spheresIn(contact));
     draw(into, first, end - first);
 }
 
@@ -216,7 +220,7 @@ const Program& TextureContact::useGroup(const Program& program, size_t group) co
     const ContactGroup& contact = contact_->groups[group];
     program.use();
     program.set("firstSphere", contact.firstSphere);
-    program.set("partSpheres", plan_->groups[contact.group].count * contact.spheresOf);
+    program.set("partSpheres", spheresIn(contact));
     return program;
 }
 

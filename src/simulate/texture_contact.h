@@ -108,6 +108,7 @@ class TextureContact : public ContactPasses<ContactState> {
     void drawAll(const Into& into);                  // the rows of all spheres
     void drawGroup(const Into& into, size_t group);  // those of a group's spheres, by number
     int rowsOf(int numbers) const;
+    int spheresIn(const ContactGroup& group) const;
 
     int rowBits_;
     std::vector<OfGroup> groups_;  // with contact

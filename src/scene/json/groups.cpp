@@ -59,8 +59,9 @@ void readDrag(JsonReader& r, Group& group, void*) {
         describe(&group.drag).read(*parts, group.drag);
         return parts->finish();
     }
-    if (value && value->kind != JsonValue::Kind::number)
-        throw Error(r.at("drag"), "expected a number, or an object of \"normal\" and \"tangent\"");
+    if (value->kind != JsonValue::Kind::number)
+        throw Error(r.at("drag"), "expected a number, or an object of \"normal\" and \"tangent\", found ",
+                    name(value->kind));
     r.get("drag", group.drag.normal, Range::atLeast(0));
     group.drag.tangent = group.drag.normal;
 }
