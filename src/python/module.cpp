@@ -56,18 +56,29 @@ std::vector<FileFinding> checkFile(const std::filesystem::path& file) {
     return out;
 }
 
-py::list measureScene(const PyScene& scene, double duration, std::optional<double> seconds,
-                      std::optional<int> device) {
+std::vector<SolverKind> solversOf(const std::vector<std::string>& words) {
+    std::vector<SolverKind> out;
+    for (const std::string& word : words) {
+        const std::optional<SolverKind> kind = solverOf(word);
+        if (!kind) throw Error("solvers: expected the names of solvers; auto is the choice among them");
+        out.push_back(*kind);
+    }
+    return out;
+}
+
+py::list measureScene(const PyScene& scene, double duration, const std::vector<std::string>& solvers,
+                      std::optional<double> seconds, std::optional<int> device) {
     if (!(finite("duration", duration) > 0)) throw Error("duration is above 0, not ", duration);
     if (seconds && !(finite("seconds", *seconds) > 0)) throw Error("seconds is above 0, not ", *seconds);
+    measure::AccuracyOptions options;
+    options.duration = duration;
+    options.solvers = solversOf(solvers);
+    options.seconds = seconds;
     measure::AccuracyReport report;
     {
         const py::gil_scoped_release release;
         Device& on = deviceOf(device);
         enter(on);
-        measure::AccuracyOptions options;
-        options.duration = duration;
-        options.seconds = seconds;
         SignalWatch watch;
         report = measure::measureAccuracy(
             scene.scene, options, {&on.context, shaderRoot(), &on.cache, allThreads()},
@@ -202,8 +213,9 @@ PYBIND11_MODULE(shoal, m) {
         });
     m.def("check", &checkFile, py::arg("file"), Unlocked(), "The findings in a molecule's or scene's file.");
     m.def("measure", &measureScene, py::arg("scene"), py::kw_only(), py::arg("duration") = 1.0,
-          py::arg("seconds") = py::none(), py::arg("device") = py::none(),
+          py::arg("solvers") = std::vector<std::string>(), py::arg("seconds") = py::none(),
+          py::arg("device") = py::none(),
           "Error against cost of every method, as a list of dicts: relative error; s per vertex and "
-          "simulated second. "
-          "`duration`: s of simulated time; `seconds`: of measuring, about.");
+          "simulated second. `duration`: s of simulated time; `solvers`: only these, or all where none is "
+          "named; `seconds`: of measuring, about.");
 }

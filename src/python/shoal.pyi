@@ -117,5 +117,10 @@ class Finding:
 
 def check(file: File) -> list[Finding]: ...
 def measure(
-    scene: Scene, *, duration: float = 1.0, seconds: float | None = None, device: int | None = None
+    scene: Scene,
+    *,
+    duration: float = 1.0,
+    solvers: Sequence[str] = (),
+    seconds: float | None = None,
+    device: int | None = None,
 ) -> list[dict[str, Any]]: ...

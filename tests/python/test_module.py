@@ -298,9 +298,13 @@ def test_check_and_measure():
     assert any("without any stiffness" in finding.message for finding in shoal.check(ROOT / "tests/cli/squares.scene.json"))
     missing = shoal.check("none.json")
     assert len(missing) == 1 and missing[0].error
-    rows = shoal.measure(shoal.Scene(ROOT / "tests/cli/squares.scene.json"), duration=0.1, seconds=2)
-    errors = [row["error"] for row in rows if row["solver"] == "leapfrog" and row["error"] is not None]
-    assert errors and min(errors) < 1e-3
+    squares = shoal.Scene(ROOT / "tests/cli/squares.scene.json")
+    rows = shoal.measure(squares, duration=0.1, solvers=["leapfrog"])
+    assert {row["solver"] for row in rows} == {"leapfrog"}
+    assert 0 < min(row["error"] for row in rows if row["error"] is not None) < 1e-5
+    for words, message in ((["frog"], 'unknown solver "frog"'), (["auto"], "solvers: expected the names")):
+        with pytest.raises(shoal.Error, match=message):
+            shoal.measure(squares, solvers=words)
 
 
 def test_stubs_name_what_the_module_has():
