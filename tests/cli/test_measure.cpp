@@ -29,8 +29,7 @@ std::string shearScene(const Scratch& scratch, const std::string& more = "") {
 }
 
 Words quick(const std::string& scene, const Words& more = {}) {
-    Words out = {"measure", scene,         "--solvers", "leapfrog,euler", "--duration",
-                 "0.2",     "--molecules", "2",         "--seconds",      "3"};
+    Words out = {"measure", scene, "--solvers", "leapfrog,euler", "--duration", "0.2", "--molecules", "2"};
     out.insert(out.end(), more.begin(), more.end());
     return out;
 }
