@@ -70,8 +70,6 @@ void ColliderTable::add(const Collider& collider, size_t number, size_t material
     if (isFar()) frame.anchor = "(anchor - middle)";
     CallWriter writer("t#", 0, nullptr, std::move(frame));
     Kind& kind = kinds_[collider.shape->index()];
-    kind.name = kindName(*collider.shape);
-    kind.name += kind.name.ends_with("x") ? "es" : "s";
     kind.surface = writer.text(callOf(*collider.shape), false);
     kind.thickness = writer.number(collider.thickness);
     kind.read = writer.parameters.size();
@@ -94,12 +92,12 @@ std::string ColliderTable::memberText(const Kind& kind, size_t first, size_t rea
 std::string ColliderTable::loopOver(const Kind& kind, size_t base, size_t read, const std::string& limit,
                                     const std::string& use) const {
     const size_t count = kind.members.size();
-    return concat(
-        "    // ", count, " ", kind.name, ", ", clusterSize, " a cluster\n    for (int m = 0; m < ",
-        clusters(count), "; ++m) {\n        vec4 around = sampleAt(", base, " + m);\n        if (length(",
-        isFar() ? "(anchor - middle)" : "anchor", " + position - around.xyz) * 0.999999 - around.w < ", limit,
-        ")\n        for (int n = ", clusterSize, " * m; n < min(", clusterSize, " * m + ", clusterSize, ", ",
-        count, "); ++n) ", memberText(kind, base + clusters(count), read, use), "    }\n");
+    return concat("    for (int m = 0; m < ", clusters(count), "; ++m) {\n        vec4 around = sampleAt(",
+                  base, " + m);\n        if (length(", isFar() ? "(anchor - middle)" : "anchor",
+                  " + position - around.xyz) * 0.999999 - around.w < ", limit,
+                  ")\n        for (int n = ", clusterSize, " * m; n < min(", clusterSize, " * m + ",
+                  clusterSize, ", ", count, "); ++n) ", memberText(kind, base + clusters(count), read, use),
+                  "    }\n");
 }
 
 ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const {

@@ -49,7 +49,6 @@ class ColliderTable {
 
   private:
     struct Kind {
-        std::string name;                // in the plural
         std::string surface, thickness;  // text: from t0 ...
         size_t read = 0;                 // texels of one that these need
         std::vector<Member> members;

@@ -61,7 +61,4 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std
 // loadFieldParameters().
 std::string parameterArray(const std::string& name, size_t count);
 
-// A name as part of a comment in the text: whatever could end or continue the line is replaced.
-std::string inComment(const std::string& name);
-
 }  // namespace shoal

@@ -20,7 +20,7 @@ bool isSwept(const Collider& collider) {
 
 // Holds the GLSL of a collider: statements before, its surface, its material and its velocity.
 struct Text {
-    std::string comment, before, surface, material, velocity;
+    std::string before, surface, material, velocity;
     bool swept = false;
     std::string cell = {};  // of a distance field, m: a way shorter than this passes through nothing
 };
@@ -38,7 +38,6 @@ class ColliderWriter {
 
     Text text(const Collider& collider, size_t index) {
         Text out;
-        out.comment = concat("    // ", kindName(*collider.shape), " ", inComment(collider.name), "\n");
         out.swept = isSwept(collider);
         out.velocity = "vec3(0.0)";
         result.materials[index] = result.parameters.size();
@@ -102,8 +101,7 @@ std::string sourceOfOne(const Text& text) {
     return concat(
         "// xyz unit normal, w m from the surface, less its thickness; negative inside.\n",
         "vec4 surfaceAt(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, vec3(0.0));\n",
-        "    vec4 surface;\n", text.comment, "    surface = ", text.surface,
-        ";\n    return vec4(surface.xyz, surface.w - ", text.material,
+        "    vec4 surface = ", text.surface, ";\n    return vec4(surface.xyz, surface.w - ", text.material,
         ".z);\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 position, vec3 ",
         "velocity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
         "surface.w < 0.0 ? ", text.material,
@@ -172,7 +170,7 @@ class Joint {
     }
 
     void write(const Text& t, size_t number) {
-        const std::string head = concat(t.comment, t.before, "    surface = ", t.surface, ";\n");
+        const std::string head = concat(t.before, "    surface = ", t.surface, ";\n");
         const char *part = t.swept ? "least.y" : "least.x", *slower = t.cell.empty() ? "" : "slower";
         clearances_ +=
             concat(head, "    ", part, " = min(", part, ", ", slower, "(surface.w - ", t.material, ".z));\n");

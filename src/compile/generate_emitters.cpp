@@ -68,8 +68,7 @@ class EmitterText {
         : scene_(&scene), emitter_(&emitter), index_(index), layout_(layout), samples_(&samples) {}
 
     std::string text() {
-        std::string out =
-            concat("    // ", inComment(emitter_->name), "\n    if (emitter == ", index_, ") {\n");
+        std::string out = concat("    if (emitter == ", index_, ") {\n");
         out += emitter_->from == From::death ? fromDeath() : fromPlace();
         const bool outward = emitter_->along == Along::outward;
         out += concat("        vec3 axis = ", outward ? "outward" : turned(slot(2) + ".xyz"), ";\n",

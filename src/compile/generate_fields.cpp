@@ -12,7 +12,6 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
     GeneratedFields out;
     CallWriter writer("fieldParameters[#]", 0, &samples);
     for (const Field& field : fields) {
-        out.source += concat("    // ", kindName(*field.shape), " ", inComment(field.name), "\n");
         const GlslCalls calls = std::visit([](const auto& kind) { return kind.calls(); }, *field.shape);
         const std::string velocity = writer.text(calls);
         out.weights.push_back(writer.parameters.size());
@@ -71,13 +70,6 @@ std::string parameterArray(const std::string& name, size_t count) {
     return concat("#ifdef FUSED\nuniform vec4 given", capital, "[", count, "];\nvec4 ", name, "[", count,
                   "];\n\nvoid load", capital, "()\n{\n", load, "}\n#else\nuniform vec4 ", name, "[", count,
                   "];\n#endif\n\n");
-}
-
-std::string inComment(const std::string& name) {
-    std::string out = name;
-    std::replace_if(
-        out.begin(), out.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
-    return out;
 }
 
 }  // namespace shoal

@@ -15,7 +15,6 @@ class ForceWriter {
     std::string pulls, thrusts, anyThrusts;  // statements
 
     void add(const Force& force, size_t index) {
-        comment_ = concat("    // ", kindName(*force.shape), " ", inComment(force.name), "\n");
         const GroupForces::One one{index, result.parameterCount};
         std::visit([&](const auto& kind) { add(kind, one, isFar(force)); }, *force.shape);
     }
@@ -28,8 +27,8 @@ class ForceWriter {
     void add(const ThrustForce&, const GroupForces::One& one, bool) {
         result.thrusts.push_back(one);
         const std::string a = slot();
-        thrusts += concat(comment_, "    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a, ".y, ",
-                          a, ".z);\n");
+        thrusts +=
+            concat("    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a, ".y, ", a, ".z);\n");
         anyThrusts += concat("    velocity *= thrustFactor(velocity, exp(", a, ".w * time), ", a, ".z);\n");
     }
 
@@ -38,11 +37,9 @@ class ForceWriter {
     void add(const Pull& pull, const GroupForces::One& one, bool far) {
         result.pulls.push_back(one);
         CallWriter writer("forceParameters[#]", one.slot);
-        pulls += concat(comment_, "    a += ", writer.text(pull.call(), far), ";\n");
+        pulls += concat("    a += ", writer.text(pull.call(), far), ";\n");
         result.parameterCount += writer.parameters.size();
     }
-
-    std::string comment_;
 };
 
 }  // namespace

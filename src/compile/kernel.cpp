@@ -22,10 +22,8 @@ std::string at(const char* array, int index) {
 
 std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     const size_t count = molecule.vertices.size();
-    std::string out = concat("// ", count, " vertices, ", molecule.springs.size(), " springs, ",
-                             molecule.triangles.size(), " triangles\n");
-    out += glslArray("float", "inverseMass", count,
-                     [&](size_t v) { return glslLiteral(1 / molecule.vertices[v].mass); });
+    std::string out = glslArray("float", "inverseMass", count,
+                                [&](size_t v) { return glslLiteral(1 / molecule.vertices[v].mass); });
     out += glslArray("bool", "pinned", count, [&](size_t v) {
         return std::string(needs.pins && molecule.vertices[v].pinned ? "true" : "false");
     });
@@ -46,18 +44,17 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     out += concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
     if (!needs.thrust && !needs.steers) return out;
     const double mass = molecule.mass();
-    // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a
-    // loop does
-    const auto mean = [&](const char* comment, const char* name, const char* array) {
-        std::string text =
-            concat("\n// ", comment, ", by mass.\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
+    // The mean over the vertices by mass: each product in a register, or Mesa would take equal shares out of
+    // the sum and round otherwise than a loop does.
+    const auto mean = [&](const char* name, const char* array) {
+        std::string text = concat("\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
         for (size_t v = 0; v < count; ++v)
             text += concat("    sum += inRegister(", array, "[", v, "] * ",
                            glslLiteral(molecule.vertices[v].mass / mass), ");\n");
         return text + "    return sum;\n}\n";
     };
-    if (needs.thrust) out += mean("Of w", "meanVelocity", "w");
-    if (needs.steers) out += mean("Of the probes", "steeredMiddle", "probe");
+    if (needs.thrust) out += mean("meanVelocity", "w");
+    if (needs.steers) out += mean("steeredMiddle", "probe");
     return out;
 }
 

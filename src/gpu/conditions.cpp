@@ -9,11 +9,10 @@
 namespace shoal::gpu {
 namespace {
 
-// Words, and the signs ! ( ) > && ||, of a condition or directive; a comment ends it.
+// Words, and the signs ! ( ) > && ||, of a condition or directive.
 std::vector<std::string> tokensOf(std::string_view text) {
     std::vector<std::string> out;
     for (size_t i = 0; i < text.size();) {
-        if (text.substr(i, 2) == "//") break;
         if (isIdentifier(text[i])) {
             size_t end = i;
             while (end < text.size() && isIdentifier(text[end]))

@@ -36,22 +36,23 @@ void forEachLine(std::string_view text, Visit visit) {
     }
 }
 
-// Follows block comments from line to line.
-bool endsInsideComment(std::string_view line, bool inside) {
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-        if (inside) {
-            if (line[i] == '*' && line[i + 1] == '/') {
-                inside = false;
-                ++i;
-            }
-        } else if (line[i] == '/' && line[i + 1] == '/') {
-            return false;
-        } else if (line[i] == '/' && line[i + 1] == '*') {
-            inside = true;
-            ++i;
-        }
+// The line with spaces in place of comments, which keeps its columns, and none at its end. `inside`: a block
+// comment.
+std::string withoutComments(std::string_view line, bool& inside) {
+    std::string out;
+    while (!line.empty()) {
+        const std::string_view start = line.substr(0, 2);
+        if (!inside && start == "//") break;
+        const bool begins = !inside && start == "/*", ends = inside && start == "*/";
+        if (begins || inside)
+            out.append(begins || ends ? 2 : 1, ' ');
+        else
+            out += line.front();
+        line.remove_prefix(begins || ends ? 2 : 1);
+        inside = begins || (inside && !ends);
     }
-    return inside;
+    out.resize(out.find_last_not_of(" \t") + 1);
+    return out;
 }
 
 // "#include" with spaces where C allows them; sets `rest` to what follows.
@@ -76,17 +77,12 @@ class Resolver {
         source.files.push_back(name);
         return static_cast<int>(source.files.size()) - 1;
     }
-    // Adds a line, unless a condition leaves it out or it is blank after a blank one.
-    void addLine(std::string_view line, int file, int number, bool inComment = false) {
-        const bool stays = inComment ? conditions_.taken()
-                                     : conditions_.stays(line, {source.files[size_t(file)], number, 0, {}});
-        const bool blank = withoutSpaces(line).empty();
-        if (!stays) source.leftOut.append(line) += '\n';
-        if (!stays || (blank && blank_)) return;
-        blank_ = blank;
-        source.text.append(line);
-        source.text += '\n';
-        source.lines.push_back({file, number});
+    // Adds a line, unless it is blank or a condition leaves it out.
+    void addLine(std::string_view line, int file, int number) {
+        if (line.empty()) return;
+        const bool stays = conditions_.stays(line, {source.files[size_t(file)], number, 0, {}});
+        (stays ? source.text : source.leftOut).append(line) += '\n';
+        if (stays) source.lines.push_back({file, number});
     }
 
     // `asker`: where the #include is; empty for the file that the program names.
@@ -101,17 +97,17 @@ class Resolver {
         int number = 0;
         bool inComment = false;
         const size_t depth = conditions_.depth();
-        forEachLine(text, [&](std::string_view line) {
+        forEachLine(text, [&](std::string_view commented) {
             ++number;
+            const std::string line = withoutComments(commented, inComment);
             std::string_view rest;
-            if (!inComment && isInclude(line, rest)) {
+            if (isInclude(line, rest)) {
                 const Location here{shown, number, static_cast<int>(line.find('#')) + 1, {}};
                 const std::string asked = quoted(rest, here);
                 if (conditions_.taken()) add(asked, here);
             } else {
-                addLine(line, file, number, inComment);
+                addLine(line, file, number);
             }
-            inComment = endsInsideComment(line, inComment);
         });
         conditions_.needClosed(depth);
     }
@@ -122,9 +118,7 @@ class Resolver {
     static std::string quoted(std::string_view rest, const Location& where) {
         const size_t end =
             rest.size() > 1 && rest.front() == '"' ? rest.find('"', 1) : std::string_view::npos;
-        const std::string_view behind =
-            end == std::string_view::npos ? std::string_view{} : withoutSpaces(rest.substr(end + 1));
-        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//"))
+        if (end == std::string_view::npos || end == 1 || end + 1 < rest.size())
             throw Error(where, "expected #include \"folder/file.glsl\", from the root of the shaders");
         return std::string(rest.substr(1, end - 1));
     }
@@ -154,7 +148,6 @@ class Resolver {
     const std::map<std::string, std::string>& generated_;
     std::set<std::string> included_;
     Conditions conditions_;
-    bool blank_ = false;  // the last line that stayed
 };
 
 // One message of a driver: the line of the text it points to, and where its words begin.
@@ -251,12 +244,7 @@ std::set<std::string, std::less<>> declared(std::string_view text, std::string_v
     int depth = 0;  // of braces, inside a block
     for (size_t i = 0; i < text.size();) {
         const std::string_view rest = text.substr(i);
-        if (rest.substr(0, 2) == "//") {
-            i += std::min(rest.find('\n'), rest.size());
-        } else if (rest.substr(0, 2) == "/*") {
-            const size_t end = rest.find("*/", 2);
-            i += end == std::string_view::npos ? rest.size() : end + 2;
-        } else if (isIdentifier(rest.front())) {
+        if (isIdentifier(rest.front())) {
             size_t length = 1;
             while (length < rest.size() && isIdentifier(rest[length]))
                 ++length;

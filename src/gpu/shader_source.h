@@ -1,5 +1,6 @@
-// Shader files with includes, and a line table; conditions taken out (gpu/conditions.h). Pure text: no
-// OpenGL, testable without a context.
+// Shader files with includes, and a line table; comments, blank lines and conditions (gpu/conditions.h) are
+// taken out, so that rewording a comment compiles nothing anew. Pure text: no OpenGL, testable without a
+// context.
 //
 // Shader files have no #version line: `header` goes in front, then one #define a line, then the file with
 // every #include "folder/file.glsl" that is used replaced by that file, once each, from the root of the
@@ -44,9 +45,9 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
 const char* header330();  // #version 330 core
 const char* header430();  // #version 430 core, the first with compute shaders
 
-// Names that the text declares by a keyword, "uniform" or "buffer", whether or not the compiler will keep
-// them: every word up to the end of the declaration. Blocks count with their own name and those of their
-// members.
+// Names that a text without comments declares by a keyword, "uniform" or "buffer", whether or not the
+// compiler will keep them: every word up to the end of the declaration. Blocks count with their own name and
+// those of their members.
 std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword);
 bool isIdentifier(char c);  // a letter, a digit or _
 

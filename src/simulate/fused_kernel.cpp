@@ -119,7 +119,7 @@ std::string parameterLoads(const GroupPlan& group, const KernelOptions& options)
 // The files of a kernel in the order in which they build on one another.
 std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     const bool perLane = options.lanes == Lanes::molecule;
-    std::string out = "// The fused step of a group.\n";  // no name: equal groups have equal text
+    std::string out;
     if (options.groupVote && perLane && group.needs.collide)
         out += "#extension GL_ARB_shader_group_vote : require\n";
     const auto include = [&](bool need, const std::string& file) {

@@ -15,11 +15,10 @@ bool isWordCharacter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// The line with every word `name` outside comments replaced.
+// The line with every word `name` replaced.
 std::string withWord(const std::string& line, char name, const std::string& value) {
     std::string out;
     for (size_t k = 0; k < line.size(); ++k) {
-        if (line.compare(k, 2, "//") == 0) return out + line.substr(k);
         const bool alone = line[k] == name &&
                            (k == 0 || (!isWordCharacter(line[k - 1]) && line[k - 1] != '.')) &&
                            (k + 1 == line.size() || !isWordCharacter(line[k + 1]));
@@ -64,7 +63,7 @@ char loopVariable(const std::string& line) {
 size_t closingLine(const std::vector<Line>& lines, size_t open) {
     int depth = 0;
     for (size_t k = open; k < lines.size(); ++k) {
-        const std::string code = lines[k].text.substr(0, lines[k].text.find("//"));
+        const std::string& code = lines[k].text;
         depth +=
             int(std::count(code.begin(), code.end(), '{')) - int(std::count(code.begin(), code.end(), '}'));
         if (depth == 0) return k;

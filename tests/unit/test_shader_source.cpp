@@ -56,8 +56,18 @@ TEST_CASE("only directives include", "[shader]") {
                                           "  #  include  \"some.glsl\"  // with a reason\r\n"},
                                          {"some.glsl", "float some;\n"}},
                                         "main.frag");
-    CHECK(source.text.find("float some;\n") != std::string::npos);
-    CHECK(source.lines.size() == 7);
+    CHECK(source.text == "#version 330 core\n#includes\nfloat some;\n");
+    CHECK(origin(source, 2) == "generated:main.frag:5");
+    CHECK(origin(source, 3) == "generated:some.glsl:1");
+}
+
+TEST_CASE("comments and blank lines leave no trace in the text", "[shader]") {
+    const auto textOf = [](const char* text) { return resolve({{"main.frag", text}}, "main.frag").text; };
+    CHECK(textOf("// Why.\n\nfloat a; // m\n#ifdef A // no\nfloat b;\n#endif\n") ==
+          "#version 330 core\nfloat a;\n");
+    // what follows a comment keeps its column
+    CHECK(textOf("float /* m */ a;\n/* one // two\n** /* */ float b; /**/\n/*/ float c; */ float d;\n") ==
+          "#version 330 core\nfloat         a;\n         float b;\n                float d;\n");
 }
 
 TEST_CASE("what a condition leaves out includes nothing, and is there for whoever asks later", "[shader]") {
@@ -165,10 +175,8 @@ TEST_CASE("an error goes before the warnings above it", "[shader]") {
     CHECK(source.firstLocation("0:3(1): warning: odd\n0:2(1): warning: too\n").line == 2);
 }
 
-TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
+TEST_CASE("declared uniforms are found, and nothing else", "[shader]") {
     const auto names = declared(
-        "// uniform float commented;\n"
-        "/* uniform float blocked; */\n"
         "uniform highp sampler2D position, velocity;\n"
         "uniform vec4 list[COUNT];\n"
         "layout(std140) uniform Types { vec4 row; float tail; } types;\n"
@@ -179,7 +187,7 @@ TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
         INFO(name);
         CHECK(names.count(name) == 1);
     }
-    for (const char* name : {"commented", "blocked", "uv", "uniformly"}) {
+    for (const char* name : {"uv", "uniformly"}) {
         INFO(name);
         CHECK(names.count(name) == 0);
     }
@@ -187,7 +195,6 @@ TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
 
 TEST_CASE("declared storage blocks are found, uniforms are not among them", "[shader]") {
     const auto names = declared(
-        "// buffer Commented { float c; };\n"
         "layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };\n"
         "layout(std430, binding = 1) buffer writeonly Sums { float sums[]; } out1;\n"
         "uniform samplerBuffer part;\n"
@@ -198,7 +205,7 @@ TEST_CASE("declared storage blocks are found, uniforms are not among them", "[sh
         INFO(name);
         CHECK(names.count(name) == 1);
     }
-    for (const char* name : {"Commented", "part", "Types", "buffered"}) {
+    for (const char* name : {"part", "Types", "buffered"}) {
         INFO(name);
         CHECK(names.count(name) == 0);
     }
