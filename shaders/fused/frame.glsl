@@ -60,6 +60,9 @@ void loadLoads(int molecule)
 
 void main()
 {
+#if defined(WATCH) && !defined(LAYERED) && !defined(SOFTWARE)
+    if (comesTooLate()) return;
+#endif
     int molecule = ownMolecule();
     loadState(molecule);
     loadParameters();

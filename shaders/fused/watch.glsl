@@ -1,5 +1,5 @@
-// The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups is set; in
-// fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it looks. Needs fused/state.glsl.
+// The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups holds
+// 1 + the number of the frame; in fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it looks. Needs fused/state.glsl.
 #ifdef WATCH
 #include "physics/runaway.glsl"
 
@@ -15,11 +15,19 @@ bool runsAway()
 }
 
 #ifndef LAYERED
-layout(std430, binding = 3) writeonly buffer Alarm { uint alarm; };
+layout(std430, binding = 3) buffer Alarm { uint alarm; };
 
 void watch()
 {
-    if (runsAway()) alarm = 1u;
+    if (runsAway()) alarm = uint(givenCounts.x) + 1u;
+}
+
+// Whether an earlier frame left a state that ran away: then this frame, which was issued before anybody knew, changes
+// nothing.
+bool comesTooLate()
+{
+    uint raised = alarm;
+    return raised != 0u && raised != uint(givenCounts.x) + 1u;
 }
 #endif
 #endif

@@ -33,7 +33,7 @@ void checkSave(const RunRequest& request) {
     if (!request.save.empty()) checkWritable(request.save);
 }
 
-void saveState(const std::string& file, const Simulation& simulation) {
+void saveState(const std::string& file, Simulation& simulation) {
     simulation.check();
     writeCheckpoint(file, simulation.plan(), {simulation.save(), simulation.parameters});
 }

@@ -25,7 +25,7 @@ void resume(const RunRequest& request, Simulation& simulation);
 void checkSave(const RunRequest& request);
 // Writes the state as it is. Runaway: it is none to go on from; an older file is kept. Error: cannot be
 // written.
-void saveState(const std::string& file, const Simulation& simulation);
+void saveState(const std::string& file, Simulation& simulation);
 
 // Saves what can be looked at closer, as <scene>.watchdog.shoal in a folder (empty: the working directory):
 // the state before the frame that went wrong, or as it is, where that is finite. Returns a sentence that says

@@ -31,8 +31,8 @@ struct SimulationOptions {
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     gpu::ProgramCache* cache = nullptr;
     bool watchdog = true;  // simulate/watchdog.h
-    // Contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context is; both give the
-    // same bits.
+    // Fused, for tests: kernels and contact take the form that suits a GPU, or a CPU rasteriser, whatever the
+    // context is; both give the same bits. As on a GPU, what ran away is noticed as late as it may be.
     std::optional<bool> asOnGpu = std::nullopt;
     // Fused, for tests: a dispatch takes at most so many molecules or newborns, as on a device of small
     // blocks; 0: as many as this one takes.
@@ -82,9 +82,11 @@ class ExecutionPath {
     // The groups before the last frame; nothing where they are gone.
     virtual std::optional<std::vector<GroupState>> readBefore() const { return {}; }
 
-    // Whether the last frame since disarm() left a state that ran away (fused: or one before it). Waits for
-    // it, and reads 4 bytes.
-    virtual bool alarmed() const = 0;
+    // How many frames have been issued since disarm() after one that left a state which ran away: 0, it was
+    // the last. They have changed nothing, and goBack() takes them back. Nothing: none ran away, as far as is
+    // known without waiting, or, where it `waits`, up to the last. Reads 4 bytes.
+    virtual std::optional<int> framesSinceAlarm(bool waits) = 0;
+    virtual void goBack(int) {}
     virtual void disarm() = 0;
 
     virtual const ContactResult* contact() const = 0;  // null: there is none

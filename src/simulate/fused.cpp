@@ -1,7 +1,6 @@
 #include "simulate/fused.h"
 
 #include "gpu/buffer.h"
-#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -31,9 +30,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     : plan_(&plan), drawn_(options.drawn) {
     const gpu::ContextInfo& info = context.info();
     const KernelSource source{&context, shaderRoot, &plan, &tables, options.cache};
-    constexpr uint32_t fine = 0;
-    if (options.watchdog)
-        alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
+    const bool onGpu = options.asOnGpu.value_or(!info.software);
     std::vector<int> together;
     const auto atMost = [&](size_t most) {
         return options.largestPart > 0 ? std::min(most, options.largestPart) : most;
@@ -46,7 +43,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         // contact still moves what a dispatch leaves, and newborns come after it
         kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
         kernel.groupVote = info.groupVote;
-        kernel.software = info.software;
+        kernel.software = !onGpu;
         kernel.watch = options.watchdog;
         if (info.software && group.needs.collide)
             mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
@@ -67,6 +64,13 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
         school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
+    // beside the kernels of the step other passes change the state
+    using Reading = RunawayWord::Reading;
+    const bool ahead = onGpu && info.atLeast(4, 4) && !births_ && !contact_ && !school_;
+    if (options.watchdog)
+        alarm_.emplace(context, !ahead                        ? Reading::waits
+                                : options.asOnGpu.has_value() ? Reading::late
+                                                              : Reading::ahead);
 }
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part,
@@ -104,7 +108,16 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         if (births_) births_->step(piece, state, timers);
         if (contact_) contact_->step(piece, state, timers);
     }
+    if (alarm_) alarm_->endFrame(frame.number);
     if (contact_ || births_) computeNormals(timers);
+}
+
+// The kernels of these frames have changed nothing.
+void Fused::goBack(int frames) {
+    if (frames == 0) return;
+    alarm_->goBack(frames);
+    for (GroupBuffers& group : state)
+        if (frames % 2 == 1) group.flip();
 }
 
 void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
@@ -115,12 +128,12 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         kernels_[g]->update(frame);
         const Program& program = kernels_[g]->useStep(frame);
         if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
-        if (alarm_) program.storage("Alarm", binding::alarm, alarm_);
+        if (alarm_) alarm_->bind(program, binding::alarm);
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part, KernelOptions::Work::frame);
         state[g].flip();
     }
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage, gpu::Barrier::bufferUpdate});
 }
 
 void Fused::write(size_t group, const GroupState& groupState, double time) {
@@ -153,17 +166,6 @@ bool Fused::changeLife(size_t group, const Lifecycle& life) {
 
 bool Fused::changeSchool(size_t group, const School& school) {
     return school_ && school_->change(group, school);
-}
-
-bool Fused::alarmed() const {
-    uint32_t raised = 0;
-    if (alarm_) alarm_.download(gpu::Traffic::Kind::control, 0, &raised, sizeof raised);
-    return raised != 0;
-}
-
-void Fused::disarm() {
-    constexpr uint32_t fine = 0;
-    if (alarm_) alarm_.update(gpu::Traffic::Kind::control, 0, &fine, sizeof fine);
 }
 
 void Fused::computeNormals(gpu::PassTimers& timers) {

@@ -16,6 +16,7 @@
 #include "simulate/molecule_contact.h"
 #include "simulate/school.h"
 #include "simulate/state_view.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -38,8 +39,13 @@ class Fused : public ExecutionPath {
         return state[group].readNormals(plan_->groups[group]);
     }
     std::optional<std::vector<GroupState>> readBefore() const override;
-    bool alarmed() const override;
-    void disarm() override;
+    std::optional<int> framesSinceAlarm(bool waits) override {
+        return alarm_ ? alarm_->framesSince(waits) : std::nullopt;
+    }
+    void goBack(int frames) override;
+    void disarm() override {
+        if (alarm_) alarm_->disarm();
+    }
     const ContactResult* contact() const override { return contact_.get(); }
     void remember(const ContactMemory& memory) override {
         if (contact_) contact_->remember(memory);
@@ -63,7 +69,7 @@ class Fused : public ExecutionPath {
     gpu::Programs programs_;
     std::vector<std::unique_ptr<GroupKernel>> kernels_;  // per group, as the next
     std::vector<const gpu::Program*> normals_;           // null: there are none
-    gpu::Buffer alarm_;                                  // one word; where watched
+    std::optional<RunawayWord> alarm_;                   // where watched
     std::unique_ptr<MoleculeContact> contact_;           // null: there is none
     std::unique_ptr<Births> births_;                     // null: none is born and none dies
     std::unique_ptr<Schooling> school_;                  // null: none steers

@@ -41,7 +41,9 @@ class PingPong : public ExecutionPath {
     std::vector<glm::vec3> readNormals(size_t group) const override {
         return state.readNormals(plan_->groups[group]);
     }
-    bool alarmed() const override { return query_ && query_->raised(); }
+    std::optional<int> framesSinceAlarm(bool) override {
+        return query_ && query_->raised() ? std::optional<int>(0) : std::nullopt;
+    }
     void disarm() override {
         if (query_) query_->disarm();
     }

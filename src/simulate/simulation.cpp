@@ -8,6 +8,7 @@
 #include "simulate/fragments.h"
 #include "simulate/fused.h"
 #include "simulate/ping_pong.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -84,7 +85,7 @@ void Simulation::goOn(double time, int frames, double step) {
     time_ = time;
     frames_ = frames;
     lastStep_ = step;
-    last_.reset();
+    issued_.clear();
     path_->disarm();
     path_->computeNormals(timers_);
 }
@@ -103,10 +104,10 @@ static bool comesBack(const Force& force, double from, double to) {
 
 // Whether anything that acts on molecules has jumped since the last frame.
 bool Simulation::forcesJump() const {
-    if (!last_) return false;
+    if (issued_.empty()) return false;
     // forces hold what they are in the middle of a frame (forceParameters)
     const auto middle = [](const Parameters& p) { return (0.5 + 0.5 / p.substeps) * p.frameTime; };
-    const Parameters& before = last_->parameters;
+    const Parameters& before = issued_.back().frame.parameters;
     return jumps(before, parameters) ||
            std::any_of(plan_.forces.begin(), plan_.forces.end(), [&](const Force& force) {
                return comesBack(force, time_ - before.frameTime + middle(before), time_ + middle(parameters));
@@ -115,22 +116,38 @@ bool Simulation::forcesJump() const {
 
 void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
-    check();
+    stopWhereItRanAway(false);
     if (forcesJump()) lastStep_ = 0;
-    stepBefore_ = lastStep_;
+    const double before = lastStep_;
     lastStep_ = parameters.frameTime / parameters.substeps;
-    last_ =
-        Frame{time_, time_ + parameters.frameTime, lastStep_, frames_, parameters, lastStep_ != stepBefore_};
+    const Frame next{time_,      time_ + parameters.frameTime, lastStep_, frames_,
+                     parameters, lastStep_ != before};
     {
         const gpu::TimedFrame timed(timers_);
-        path_->step(*last_, timers_);
+        path_->step(next, timers_);
     }
-    time_ = last_->end;
+    time_ = next.end;
     ++frames_;
+    issued_.push_back({next, before});
+    if (issued_.size() > RunawayWord::mostBehind + 1) issued_.pop_front();
 }
 
-void Simulation::check() const {
-    if (!last_ || !path_->alarmed()) return;
+void Simulation::check() {
+    stopWhereItRanAway(true);
+}
+
+void Simulation::stopWhereItRanAway(bool waits) {
+    if (issued_.empty()) return;
+    const std::optional<int> since = path_->framesSinceAlarm(waits);
+    if (!since) return;
+    for (int i = 0; i < *since; ++i) {
+        EXPECTS(issued_.size() > 1);
+        lastStep_ = issued_.back().stepBefore;
+        issued_.pop_back();
+        time_ = issued_.back().frame.end;
+        --frames_;
+    }
+    path_->goBack(*since);
     // The state before the last frame shows where the trouble began: springs spread it over the molecule.
     const std::optional<SavedState> before = saveBefore();
     const Alarm first = before ? findAlarm(*before) : Alarm{};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,11 +50,12 @@ class Simulation {
     Simulation(const Simulation&) = delete;  // the path refers to the plan and the tables
     Simulation& operator=(const Simulation&) = delete;
 
-    // Advances by parameters.frameTime. Runaway: check's, of the frame before; nothing moves then.
+    // Advances by parameters.frameTime. Runaway: check's, of the frame before, on a GPU of one up to four
+    // frames before; nothing moves then, and time and frames are those of the frame that left that state.
     void frame();
     // Waits for the last frame. Runaway: it, or one before it, left a state that is not finite or too fast.
     // That stays so until a restart or another state is loaded.
-    void check() const;
+    void check();
     void restart();  // back to the start state, which is uploaded again
 
     Parameters parameters;
@@ -102,6 +104,7 @@ class Simulation {
   private:
     std::unique_ptr<ExecutionPath> makePath(const std::string& shaderRoot);
     void goOn(double time, int frames, double step);
+    void stopWhereItRanAway(bool waits);
     bool forcesJump() const;
 
     gpu::Context* context_;
@@ -116,8 +119,13 @@ class Simulation {
     int frames_ = 0;
     // s, a substep of the last frame; 0: none yet, or what it left behind does not count.
     double lastStep_ = 0;
-    double stepBefore_ = 0;      // s, lastStep_ at the start of the last frame
-    std::optional<Frame> last_;  // nothing: none since the start or a load
+    struct Issued {
+        Frame frame;
+        double stepBefore;  // s, lastStep_ at its start
+    };
+    // The last frames, as many as may have to be taken back and one more; empty: none since the start or a
+    // load.
+    std::deque<Issued> issued_;
 };
 
 }  // namespace shoal

@@ -15,10 +15,11 @@ SavedState Simulation::save() const {
 }
 
 std::optional<SavedState> Simulation::saveBefore() const {
-    if (!last_) return {};
+    if (issued_.empty()) return {};
     std::optional<std::vector<GroupState>> groups = path_->readBefore();
     if (!groups) return {};
-    return SavedState{last_->time, last_->number, std::move(*groups), stepBefore_, {}};
+    const Issued& last = issued_.back();
+    return SavedState{last.frame.time, last.frame.number, std::move(*groups), last.stepBefore, {}};
 }
 
 // Adapts the state of a scene with other pins: a pinned vertex is at rest, and pins that cannot be released

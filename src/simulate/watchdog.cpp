@@ -94,6 +94,64 @@ bool RunawayQuery::raised() const {
     return raised != GL_FALSE;
 }
 
+RunawayWord::RunawayWord(gpu::Context& context, Reading reading)
+    : reading_(reading), traffic_(&context.traffic()) {
+    constexpr uint32_t fine = 0;
+    word_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
+    if (reading == Reading::waits) return;
+    constexpr uint32_t none[mostBehind + 1] = {};
+    constexpr GLbitfield mapped = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    copies_ = gpu::Handle<gpu::deleteBuffer>(glGenBuffers);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, copies_.id());
+    glBufferStorage(GL_COPY_WRITE_BUFFER, sizeof none, none, mapped | GL_CLIENT_STORAGE_BIT);
+    copy_ =
+        static_cast<const volatile uint32_t*>(glMapBufferRange(GL_COPY_WRITE_BUFFER, 0, sizeof none, mapped));
+    if (copy_ == nullptr) reading_ = Reading::waits;
+}
+
+void RunawayWord::endFrame(int number) {
+    last_ = number;
+    if (reading_ == Reading::waits) return;
+    glBindBuffer(GL_COPY_READ_BUFFER, word_.id());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, copies_.id());
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, GLintptr(next_ * sizeof(uint32_t)),
+                        sizeof(uint32_t));
+    fences_[next_].reset(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    next_ = (next_ + 1) % fences_.size();
+    const Fence& oldest = fences_[next_];
+    constexpr GLuint64 second = 1'000'000'000;
+    while (oldest && glClientWaitSync(oldest.get(), GL_SYNC_FLUSH_COMMANDS_BIT, second) == GL_TIMEOUT_EXPIRED)
+        ;
+}
+
+// The word as far as it has arrived: once set it stays so.
+uint32_t RunawayWord::seen() const {
+    uint32_t out = copy_[next_];
+    for (size_t i = 0; reading_ == Reading::ahead && i < fences_.size(); ++i)
+        out = std::max(out, uint32_t(copy_[i]));
+    traffic_->countReadBack(gpu::Traffic::Kind::control, sizeof out);
+    return out;
+}
+
+std::optional<int> RunawayWord::framesSince(bool waits) {
+    if (waits || reading_ == Reading::waits)
+        word_.download(gpu::Traffic::Kind::control, 0, &raised_, sizeof raised_);
+    else if (raised_ == 0)
+        raised_ = seen();
+    if (raised_ == 0) return {};
+    return last_ + 1 - int(raised_);
+}
+
+void RunawayWord::disarm() {
+    constexpr uint32_t fine = 0;
+    word_.update(gpu::Traffic::Kind::control, 0, &fine, sizeof fine);
+    raised_ = fine;
+    if (reading_ == Reading::waits) return;
+    for (size_t i = 0; i < fences_.size(); ++i)
+        endFrame(last_);
+    glFinish();
+}
+
 Alarm findAlarm(const SavedState& saved) {
     Alarm worst;
     worst.time = saved.time;

@@ -1,19 +1,26 @@
 // The watchdog: a state that is not finite, or faster than anything that the equations are meant for, stops
 // the run within a frame, and the state before it can still be saved.
 //
-// The GPU only notices: compute kernels look at what they store and set one word
+// The GPU only notices: compute kernels look at what they store and write the frame's number into one word
 // (shaders/fused/watch.glsl); fragment passes draw what is wrong inside an occlusion query
 // (shaders/fused/watch.frag, shaders/passes/watch.frag). The next frame reads that, 4 bytes, before it
 // begins: so the frame itself never waits, and the side of the state before the bad frame is still there.
-// Which vertex it was, the CPU finds in the states read back.
+// On a GPU the kernels of later frames change nothing once the word is set: so the CPU need not know before
+// it issues them, and reads the word up to three frames late. Which vertex it was, the CPU finds in the
+// states read back.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "core/error.h"
+#include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/gl.h"
+#include "gpu/program.h"
 
 namespace shoal {
 
@@ -71,6 +78,43 @@ class RunawayQuery {
     gpu::Handle<gpu::deleteQuery> query_;
     gpu::Traffic* traffic_;
     bool asked_ = false;
+};
+
+// The word that compute kernels set: 0, or 1 + the number of the frame that left a state which ran away.
+class RunawayWord {
+  public:
+    enum class Reading {
+        waits,  // for the last frame
+        ahead,  // takes what has arrived; at most `mostBehind` frames are missing (OpenGL 4.4)
+        late,   // for tests: so many frames are missing
+    };
+    static constexpr int mostBehind = 3;
+
+    RunawayWord(gpu::Context& context, Reading reading);
+
+    void bind(const gpu::Program& program, int binding) const { program.storage("Alarm", binding, word_); }
+    // After the kernels of a frame, with a barrier for Buffer behind them.
+    void endFrame(int number);
+    // How many frames after one that ran away have been issued: 0, it was the last one. Nothing: as far as is
+    // known none ran away.
+    std::optional<int> framesSince(bool waits);
+    void goBack(int frames) { last_ -= frames; }
+    void disarm();
+
+  private:
+    using Fence = std::unique_ptr<std::remove_pointer_t<GLsync>, decltype([](GLsync s) { glDeleteSync(s); })>;
+
+    uint32_t seen() const;
+
+    gpu::Buffer word_;
+    Reading reading_;
+    gpu::Handle<gpu::deleteBuffer> copies_;
+    const volatile uint32_t* copy_ = nullptr;  // mostBehind + 1 of them, as the device hands them over
+    std::array<Fence, mostBehind + 1> fences_;
+    size_t next_ = 0;      // of the copies: the oldest
+    uint32_t raised_ = 0;  // the word as it was last read
+    int last_ = 0;         // number of the last frame
+    gpu::Traffic* traffic_;
 };
 
 // Takes the anchors and released pins of `state`, the side before the last frame, back to what they were

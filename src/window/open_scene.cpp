@@ -49,7 +49,7 @@ void OpenScene::follow() {
     if (!there) forget();
 }
 
-void OpenScene::saveIfAsked(bool end) const {
+void OpenScene::saveIfAsked(bool end) {
     const std::vector<int>& frames = request.saveFrames;
     const bool asked = frames.empty() ? end : !end && contains(frames, simulation().frames());
     if (request.save.empty() || !asked) return;

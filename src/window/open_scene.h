@@ -35,7 +35,7 @@ struct OpenScene {
     void follow();  // after the scene was built anew
     bool unsaved() const { return running.unsaved() || scenePanel.drafted(); }
     // Saves what --save names: at the frames of --save-frames as the run passes them, else once at its end.
-    void saveIfAsked(bool end) const;
+    void saveIfAsked(bool end);
     // Saves a state that ran away; returns the sentence that tells the user.
     std::string saveForInspection(const Runaway& runaway) const;
 

@@ -32,6 +32,9 @@ std::vector<Way> ways() {
         out.push_back({"fused", {.path = Path::fused, .lanes = Lanes::molecule}});
         out.push_back({"fused, a lane a vertex", {.path = Path::fused, .lanes = Lanes::vertex}});
         out.push_back({"fused, in place", {.path = Path::fused, .inPlace = true}});
+        out.push_back({"as on a GPU", {.path = Path::fused, .lanes = Lanes::molecule, .asOnGpu = true}});
+        out.push_back(
+            {"a lane a vertex, as on a GPU", {.path = Path::fused, .lanes = Lanes::vertex, .asOnGpu = true}});
     }
     return out;
 }
@@ -245,12 +248,17 @@ TEST_CASE("the state before the last frame is exactly what it was", "[watchdog]"
 
 TEST_CASE("a run that blows up is stopped before it is lost", "[watchdog]") {
     const Plan plan = manyQuads(100);
+    std::optional<int> stopped;
     for (const Way& way : ways()) {
         INFO(way.name);
         Simulation simulation = make(plan, way.options);
         simulation.parameters.stiffness = 1e4;  // far beyond the stable step
         const std::optional<Alarm> alarm = alarmOf(simulation, 200);
         REQUIRE(alarm);
+        // at the same frame, however late it is noticed
+        if (way.options.path == Path::fused)
+            CHECK(simulation.frames() == stopped.value_or(simulation.frames()));
+        if (way.options.path == Path::fused) stopped = simulation.frames();
         const std::optional<SavedState> before = simulation.saveBefore();
         CHECK(before.has_value() == hasTwoSides(way.options));
         if (!before) continue;
