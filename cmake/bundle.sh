@@ -8,7 +8,7 @@ set -euo pipefail
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 limit=$((110 * 1024 * 1024)) # bytes, without tests; Embree alone has 42 MiB, OpenEXR 4
-test_programs=(shoal-unit shoal-gl shoal-hard shoal-baseline)
+test_programs=(shoal-unit shoal-gl shoal-hard)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "bundle: $*"; exit 1; }
@@ -141,7 +141,6 @@ The tests are in here as well:
     ./tested shoal-gl "[agreement]"     of OpenGL; without a word all of them, some minutes on a GPU
     ./tested shoal-hard                 the hard cases
     ./tested shoal-unit                 what needs no OpenGL
-    ./tested shoal-baseline             times of the hand-written baselines
 
 They look for their files in $source_dir, which becomes a link to this folder: that takes the right to
 make it. SHOAL_TEST_CONTEXT, SHOAL_TEST_PATH and the options of Catch2 mean what they always do.

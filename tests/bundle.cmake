@@ -83,7 +83,7 @@ execute_process(COMMAND ${plain} ../shoal/tested shoal-all RESULT_VARIABLE code 
 if(code EQUAL 0)
   message(FATAL_ERROR "a test program that is not there was started:\n${text}")
 endif()
-expect("${text}" "there are shoal-baseline shoal-gl shoal-hard shoal-unit")
+expect("${text}" "there are shoal-gl shoal-hard shoal-unit")
 
 # The shaders are the bundle's: a mistake in them shows, on whichever path.
 foreach(shader passes/advect.frag fused/frame.glsl)

@@ -1,6 +1,6 @@
-// A molecule's vertex as the renderer sees it, fetched from the state of either path: buffers (shaders/fused/state.glsl) or,
-// with TEXTURES, textures (src/simulate/texture_state.h). Set by C++: STATE_WIDTH, or the sizes of state/packed.glsl; LIFE
-// where molecules are born and die.
+// A molecule's vertex as the renderer sees it, fetched from the state of any path: buffers or, with LAYERED, layers of
+// textures (both state/packed.glsl, whose sizes C++ sets, and LIFE where molecules are born and die) or, with TEXTURES and
+// STATE_WIDTH, the textures of passes (src/simulate/texture_state.h).
 
 // The origin of drawing (the eye, or the middle of the shadow map), as the lattice point below it and the rest.
 // Anchors lie on the same lattice, so their difference is exact and a molecule 100 km out does not shake.
@@ -8,8 +8,8 @@ uniform vec3 originLattice;
 uniform vec3 originRest;
 
 #ifdef TEXTURES
-uniform sampler2D positions;  // xyz relative to the anchor, m; w of a molecule's first vertex: age, s
-uniform sampler2D velocities; // xyz m/s; w of a molecule's first vertex: length of life, s
+uniform sampler2D positions;  // xyz relative to the anchor, m
+uniform sampler2D velocities; // xyz m/s
 uniform sampler2D normals;    // xyz unit, or zero before the first frame
 uniform sampler2D records;    // xyz anchor, m; w flags
 uniform sampler2D constants;  // x seed, y scale
@@ -38,12 +38,6 @@ vec3 vertexPosition(int molecule, int vertex)
 vec3 vertexVelocity(int molecule, int vertex)
 {
     return texelFetch(velocities, vertexTexel(molecule, vertex), 0).xyz;
-}
-
-vec2 storedLife(int molecule)
-{
-    ivec2 texel = vertexTexel(molecule, 0);
-    return vec2(texelFetch(positions, texel, 0).w, texelFetch(velocities, texel, 0).w);
 }
 
 vec3 vertexNormal(int molecule, int vertex)

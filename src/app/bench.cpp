@@ -179,12 +179,7 @@ WholeRun::WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {
 void WholeRun::tell(double share) {
     const double rest =
         std::accumulate(parts_.begin() + part_ + 1, parts_.end(), (1 - share) * parts_[size_t(part_)]);
-    show(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
-}
-
-void WholeRun::show(int percent) {
-    for (; shown_ < percent; ++shown_)
-        bar_->step();
+    bar_->reach(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
 }
 
 BenchReport measureSpeeds(const Options& options, BenchSession& session) {

@@ -39,15 +39,12 @@ class WholeRun {
     explicit WholeRun(std::vector<double> parts);
     void tell(double share);  // of this part that is done
     void next() { ++part_; }
-    void end() { show(100); }
+    void end() { bar_->reach(100); }
     double elapsed() const { return measure::secondsSince(start_); }
 
   private:
-    void show(int percent);
-
     std::vector<double> parts_;
     ptrdiff_t part_ = 0;
-    int shown_ = 0;
     std::optional<Progress> bar_;
     measure::Clock::time_point start_ = measure::Clock::now();
 };

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace shoal {
@@ -62,14 +61,6 @@ struct BulletWorld : BulletBaseline {
             body->m_cfg.kDP = btScalar(-std::expm1(-gamma * seconds));
         world.stepSimulation(btScalar(seconds), 0);
         info.m_sparsesdf.GarbageCollect();
-    }
-
-    double lowestHeight() const override {
-        double lowest = std::numeric_limits<double>::max();
-        for (const auto& body : bodies)
-            for (int i = 0; i < body->m_nodes.size(); ++i)
-                lowest = std::min(lowest, double(body->m_nodes[i].m_x.y()));
-        return lowest;
     }
 
     void add(const std::vector<btVector3>& positions, const std::vector<btScalar>& masses,

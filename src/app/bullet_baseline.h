@@ -17,8 +17,7 @@ bool bulletAvailable();  // built with Bullet
 class BulletBaseline {
   public:
     virtual ~BulletBaseline() = default;
-    virtual void frame(double seconds) = 0;   // one step
-    virtual double lowestHeight() const = 0;  // m, of all vertices above the ground
+    virtual void frame(double seconds) = 0;  // one step
 };
 
 // `count` molecules on a grid, up to 6 m above the ground: a soft body of each, or all in one (`merged`),

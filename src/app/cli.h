@@ -78,6 +78,8 @@ CLI::Option* addFile(CLI::App& command, const char* name, T& value, const std::s
     return command.add_option(name, value, what)->type_name("FILE");
 }
 
+void addScene(CLI::App& command, Options& options);
+void addOverrides(CLI::App& command, Options& options, Texts& texts);
 void addPath(CLI::App& command, Options& options, Texts& texts);
 void addContext(CLI::App& command, Options& options, Texts& texts);
 void addCountAndSeed(CLI::App& command, Options& options);

@@ -1,5 +1,5 @@
 // `shoal export`: a scene for game engines and viewers: animation textures (exchange/animation_texture.h), or
-// all that is drawn at one moment as glTF.
+// all that is drawn as glTF at one moment or as USD over time.
 #include <cmath>
 #include <filesystem>
 #include <iostream>

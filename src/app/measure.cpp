@@ -37,18 +37,17 @@ class Bar {
         out.stage = [this](const char* words) {
             if (bar_) bar_->rename(concat(words, ", per cent"));
         };
-        out.tell = [this](double share) { show(int(100 * share)); };
+        out.tell = [this](double share) {
+            if (bar_) bar_->reach(int(100 * share));
+        };
         return out;
     }
-    void end() { show(100); }
+    void end() {
+        if (bar_) bar_->reach(100);
+    }
 
   private:
-    void show(int percent) {
-        for (; bar_ && shown_ < std::min(percent, 100); ++shown_)
-            bar_->step();
-    }
     std::unique_ptr<Progress> bar_;
-    int shown_ = 0;
 };
 
 AccuracyOptions accuracyOptions(const Options& options) {

@@ -23,6 +23,8 @@ void addSandbox(CLI::App& command, Options& options) {
                      "Open nothing outside the file's own folder and the shipped data, links followed");
 }
 
+}  // namespace
+
 void addScene(CLI::App& command, Options& options) {
     command.add_option("scene", options.files, "Scene file (.scene.json), or a name that shoal scenes lists")
         ->required()
@@ -30,19 +32,12 @@ void addScene(CLI::App& command, Options& options) {
         ->type_name("SCENE");
 }
 
-std::string solverWords() {
-    std::string words = "auto";
-    for (const Solver& one : solvers())
-        words += concat("|", one.name);
-    return words;
-}
-
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
     section(command, ofScene);
     addNumber(command, "--dt", options.dt, "Seconds that one frame simulates, instead of the scene's",
               "a time in seconds");
     command.add_option("--solver", texts.solver, "Method of every group, instead of the scene's")
-        ->type_name(solverWords());
+        ->type_name(joined(solverWords(), "|"));
     addWhole(command, "--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
     command
         .add_option("--field-sampling", options.fieldSampling,
@@ -50,6 +45,8 @@ void addOverrides(CLI::App& command, Options& options, Texts& texts) {
         ->type_name("vertexSubstep|vertexFrame|moleculeFrame");
     addCountAndSeed(command, options);
 }
+
+namespace {
 
 void addError(CLI::App& command, Options& options) {
     section(command, ofScene);

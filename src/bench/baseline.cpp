@@ -323,10 +323,6 @@ void Baseline::frame(const BaselineStep& step) {
     });
 }
 
-double Baseline::processorTime() const {
-    return data_->threads.slowest();
-}
-
 bool Baseline::unrolled() const {
     return data_->kernels != nullptr && data_->kernel != data_->kernels->any;
 }

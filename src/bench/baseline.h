@@ -56,9 +56,6 @@ class Baseline {
     void get(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& velocities) const;
 
     void frame(const BaselineStep& step);
-    // s of processor time that the slowest thread spent on the last frame: what a frame takes when no other
-    // program wants the cores.
-    double processorTime() const;
 
     bool unrolled() const;            // the molecule's springs are known at compile time
     size_t bytesPerMolecule() const;  // of state, read and written once a frame

@@ -2,9 +2,6 @@
 
 #include <sched.h>
 
-#include <algorithm>
-#include <ctime>
-
 namespace shoal::bench {
 
 namespace {
@@ -37,15 +34,9 @@ void pin(const std::vector<int>& cores, int index) {
     sched_setaffinity(0, sizeof set, &set);
 }
 
-double processorTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
-
 }  // namespace
 
-PinnedThreads::PinnedThreads(int count) : cores_(usableCores()), seconds_(size_t(count)) {
+PinnedThreads::PinnedThreads(int count) : cores_(usableCores()) {
     for (int i = 1; i < count; ++i)
         workers_.emplace_back([this, i] { wait(i); });
 }
@@ -65,19 +56,9 @@ void PinnedThreads::wait(int index) {
             relax();
         round_.wait(seen, std::memory_order_acquire);
         if (ends_) return;
-        measured(*work_, index);
+        (*work_)(index);
         busy_.fetch_sub(1, std::memory_order_acq_rel);
     }
-}
-
-void PinnedThreads::measured(const std::function<void(int)>& work, int index) {
-    const double start = processorTime();
-    work(index);
-    seconds_[size_t(index)] = processorTime() - start;
-}
-
-double PinnedThreads::slowest() const {
-    return *std::max_element(seconds_.begin(), seconds_.end());
 }
 
 void PinnedThreads::run(const std::function<void(int)>& work) {
@@ -88,7 +69,7 @@ void PinnedThreads::run(const std::function<void(int)>& work) {
     busy_ = int(workers_.size());
     ++round_;
     round_.notify_all();
-    measured(work, 0);
+    work(0);
     for (int i = 0; busy_.load(std::memory_order_acquire) != 0; ++i) {
         if (i < spins)
             relax();

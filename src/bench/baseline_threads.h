@@ -43,17 +43,12 @@ class PinnedThreads {
     // Calls work(0) here, work(1) and so on elsewhere, and waits for all. The caller's thread is tied to its
     // core meanwhile, and may run where it could before when this returns.
     void run(const std::function<void(int)>& work);
-    // s of processor time that the slowest thread spent on the last work: what it takes when no other program
-    // wants the cores.
-    double slowest() const;
 
   private:
     void wait(int index);
-    void measured(const std::function<void(int)>& work, int index);
 
     std::vector<int> cores_;  // that the process may use
     std::vector<std::thread> workers_;
-    std::vector<double> seconds_;  // per thread
     const std::function<void(int)>* work_ = nullptr;
     std::atomic<unsigned> round_{0};
     std::atomic<int> busy_{0};

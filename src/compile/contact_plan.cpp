@@ -113,11 +113,6 @@ void checkRest(const Scene& scene, int steps) {
 
 }  // namespace
 
-bool ContactPlan::onlyOfVertices() const {
-    return std::none_of(groups.begin(), groups.end(),
-                        [](const ContactGroup& group) { return group.triangles || group.self; });
-}
-
 bool ContactPlan::mayRest(const GroupPlan& group) const {
     return settings.rest && !group.needs.actuation && !group.needs.steers;
 }

@@ -75,8 +75,6 @@ struct ContactPlan {
     // Textures of fragments and of the ping-pong path have rows of 2^rowBits texels: the table of cells is a
     // square or two.
     int rowBits() const { return (tableBits + 1) / 2; }
-    // All that the ping-pong path has: no spheres on triangles, no contact within a molecule.
-    bool onlyOfVertices() const;
     // Which spheres of one molecule do not meet, of all groups (shaders/contact/touch.glsl): for each group x
     // its first sphere, y spheres of a molecule, z first word, w words of a sphere.
     struct Exclusions {
@@ -84,10 +82,6 @@ struct ContactPlan {
         std::vector<glm::uvec4> groups;
     };
     Exclusions exclusions() const;
-    // Substeps of contact step i: the frame's, as evenly as can be.
-    static int substepsOf(int step, int steps, int substeps) {
-        return substeps * (step + 1) / steps - substeps * step / steps;
-    }
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
     // it, and as friction that slides makes the matrix of the problem unsymmetric, much of it for long

@@ -37,10 +37,10 @@ struct PathLimits {
 
 struct PathChoice {
     Path path = Path::fused;
-    std::string why;  // for people: why not the other one
+    std::string why;  // for people: why not another
 };
 
-// Error: the path that is demanded (or, for automatic, both) cannot run the plan: no OpenGL 4.3, a molecule
+// Error: the path that is demanded (or, for automatic, any) cannot run the plan: no OpenGL 4.3, a molecule
 // with too many vertices and how many would do, more molecules than the textures hold and how many would fit,
 // a field sampling that the ping-pong path does not have.
 PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits);

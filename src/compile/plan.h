@@ -4,6 +4,7 @@
 //
 //   ping-pong   textures, in rows of 1024 texels        simulate/texture_state.h
 //   fused       buffers, in blocks of 16 molecules      simulate/buffer_state.h
+//   fragments   layers of textures, a texel a molecule  simulate/layer_state.h
 //
 // Topology, for the paths that read it from a table: one texture of 4-vectors, read by index i at
 // (i mod 1024, i / 1024); per group from `base`:

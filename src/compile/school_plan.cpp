@@ -16,22 +16,22 @@ constexpr int64_t mostEntries = int64_t(1) << 26;
 // centre of mass.
 struct Moments {
     std::vector<double> share, along, upward;
-    double length = 0, height = 0;  // m
+    double length = 0;  // m, along z
 };
 
 Moments momentsOf(const Molecule& molecule) {
     Moments out;
     double mass = 0;
-    glm::dvec3 middle(0), low(1e300), high(-1e300);
+    glm::dvec3 middle(0);
+    double low = 1e300, high = -1e300;  // m
     for (const Vertex& vertex : molecule.vertices) {
         mass += vertex.mass;
         middle += vertex.position * vertex.mass;
-        low = glm::min(low, vertex.position);
-        high = glm::max(high, vertex.position);
+        low = std::min(low, vertex.position.z);
+        high = std::max(high, vertex.position.z);
     }
     middle /= mass;
-    out.length = high.z - low.z;
-    out.height = high.y - low.y;
+    out.length = high - low;
     for (const Vertex& vertex : molecule.vertices) {
         const glm::dvec3 arm = vertex.position - middle;
         out.share.push_back(vertex.mass / mass);
@@ -100,7 +100,6 @@ class Planner {
         member.group = g;
         member.school = school;
         member.length = moments.length;
-        member.upright = moments.height > 0 && moments.length > 0;
         member.keel = !groups_[g].needs.directionalDrag;
         member.grid = addGrid(g, school.location);
         for (const auto* list : {&school.flees, &school.hunts})

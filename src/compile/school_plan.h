@@ -37,7 +37,6 @@ struct SchoolMember {
     std::vector<size_t> targetGrids;  // of those that it flees, then of those that it hunts
     double length = 0;                // m, of the molecule along z; 0: a point
     bool keel = false;                // its drag has no direction, and does not hold it to its course
-    bool upright = false;             // it has a height, and so an upper side
 };
 
 // A group of which others, or itself, know where its molecules are.

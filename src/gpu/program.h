@@ -99,7 +99,6 @@ class Programs {
     // from the other options. The program stays where it is as long as this does. Error: Program's.
     const Program& get(Context& context, const std::string& shaderRoot, const ProgramOptions& options,
                        const std::string& with = {});
-    size_t size() const { return made_.size(); }
 
   private:
     std::map<std::string, Program> made_;

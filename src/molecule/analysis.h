@@ -25,8 +25,7 @@ struct Analysis {
     int zeroModes = 0;            // further motions that no spring resists to first order
     bool modesKnown = true;       // false above 300 vertices, where only the highest frequency is found
 
-    // s; infinite without springs. Sufficient for every mode, with the actual damping; see NUMERICS
-    // section 3.
+    // s; infinite without springs. Sufficient for every mode, with the actual damping (analysis.cpp).
     double stableStepEuler = 0;  // largest eigenvalue of h^2 K + 2 h C below 4
     double stableStepRk4 = 0;    // 2.6 / (b/2 + sqrt(b^2/4 + a^2)), a, b the largest of frequency and damping
     double stableStepLeapfrog = 0;  // largest eigenvalue of h^2 K + 4 h C below 4: the force sees v + a h/2

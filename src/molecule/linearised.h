@@ -34,7 +34,7 @@ inline glm::dvec3 unit(const glm::dvec3& v) {
 Eigen::Vector3d direction(const Molecule& molecule, int a, int b);
 double inverseRootMass(const Molecule& molecule, int vertex);
 
-// Sum of coefficient * n n^T over the springs, scaled by the masses. `Coefficient`: stiffness or damping.
+// Sum of coefficient * n n^T over the springs, scaled by the masses. `coefficient`: stiffness or damping.
 Eigen::MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient);
 
 // Orthonormal columns that span the same, but for what is shorter than `least`.

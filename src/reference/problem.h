@@ -1,4 +1,4 @@
-// One molecule's equations of motion in double precision (NUMERICS: the baseline for every error).
+// One molecule's equations of motion in double precision: the baseline of every error.
 //
 //   m dv/dt = sum of spring forces + m g + m a(x, t) + m thrust(V) + m drag(u(x, t) - v),   dx/dt = v
 //

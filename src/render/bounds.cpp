@@ -87,7 +87,8 @@ struct ExtentOf {
     }
 };
 
-// The part of a box that shadows are worth drawing in: hills a kilometre away would leave none for what is near.
+// The part of a box that shadows are worth drawing in: hills a kilometre away would leave none for what is
+// near.
 static Box near(const Box& box, const Camera& camera) {
     const double reach = 10 * std::max(glm::distance(camera.eye, camera.target), 1e-3);
     const Box part{glm::max(box.low, camera.target - reach), glm::min(box.high, camera.target + reach)};

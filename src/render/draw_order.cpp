@@ -17,9 +17,7 @@ StateReader::StateReader(const GroupPlan& plan, size_t group)
 
 std::vector<std::string> StateReader::defines(const StateView& state) const {
     if (!state.textures) return layout.defines(state.layers != nullptr);
-    std::vector<std::string> out = {"TEXTURES", concat("STATE_WIDTH ", stateWidth)};
-    if (layout.life) out.emplace_back("LIFE");
-    return out;
+    return {"TEXTURES", concat("STATE_WIDTH ", stateWidth)};
 }
 
 void StateReader::bind(const gpu::Program& program, const StateView& state,

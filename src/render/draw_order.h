@@ -8,10 +8,9 @@
 //
 // Pairs of src/sort: the key is the depth as a whole number, the farthest first; the index is the molecule.
 //   frame    numbered and sorted anew in every frame: by radix in compute, below OpenGL 4.3 bitonic. Exact.
-//   spread   the first frame sorts; every other gives the last order new depths, and takes its share of the
-//   passes
-//            of odd-even merge sort (Latta, "Building a million particle system", section 3.4.4). Late by up
-//            to spreadFrames frames.
+//   spread   the first frame sorts; every other gives the last order new depths, and takes its share of
+//            the passes of odd-even merge sort (Latta, "Building a million particle system",
+//            section 3.4.4). Late by up to spreadFrames frames.
 //   none     numbered, with depths: for who asks how far a molecule is
 #pragma once
 
@@ -33,7 +32,7 @@
 
 namespace shoal {
 
-// How programs that draw or order the molecules of a group reach its state, on either path.
+// How programs that draw or order the molecules of a group reach its state, on any path.
 struct StateReader {
     size_t index;     // of the group in the plan
     glm::ivec4 rows;  // of the textures: first state row, rows of a slab, first record row

@@ -1,4 +1,4 @@
-// Draws one group, of molecules or of particles: straight from the state of either path, many molecules an
+// Draws one group, of molecules or of particles: straight from the state of any path, many molecules an
 // instanced draw. The state is read and nothing of it crosses the bus. DrawnGroups says when and in which
 // order.
 #pragma once

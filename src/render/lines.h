@@ -38,7 +38,7 @@ class LineDrawer {
 };
 
 // Springs, blue where they are pushed together, red where they are pulled apart. Drawn straight from the
-// state of either path, a molecule an instance; nothing crosses the bus.
+// state of any path, a molecule an instance; nothing crosses the bus.
 class SpringLines {
   public:
     // Borrows nothing. `plan` of the scene.

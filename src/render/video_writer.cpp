@@ -17,7 +17,7 @@
 
 namespace shoal {
 
-// Where the command is, or empty. Looked up here so that a missing program is told from one that failed.
+// Looked up here so that a missing program is told from one that failed.
 bool VideoWriter::installed() {
     return !findProgram("ffmpeg").empty();
 }

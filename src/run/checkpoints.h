@@ -11,9 +11,9 @@ namespace shoal {
 
 // Where a frame's file goes: "out.csv" becomes "out-00060.csv" where several frames are asked for. Numbers
 // are as long as `last`, so that names sort.
-std::string numbered(const std::string& target, int frame, bool several, int last = 99999);
+std::string numbered(const std::string& target, int frame, bool several, int last);
 
-// "hello" of "models/hello.scene.json".
+// "hello" of "models/hello/hello.scene.json".
 std::string sceneStem(const std::string& file);
 
 bool contains(const std::vector<int>& frames, int frame);

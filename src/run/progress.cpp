@@ -23,10 +23,11 @@ Progress::~Progress() {
     if (terminal_) std::fputc('\n', stderr);
 }
 
-void Progress::step() {
-    ++done_;
+void Progress::reach(int done) {
+    if (done <= done_) return;
     const Clock::time_point now = Clock::now();
-    if (done_ == 1) firstDone_ = now;
+    if (done_ == 0) firstDone_ = now;
+    done_ = std::min(done, total_);
     if (terminal_ && (done_ == total_ || now - printed_ > std::chrono::milliseconds(100))) {
         printed_ = now;
         print();
@@ -72,15 +73,12 @@ FieldBaking FieldWatch::baking() {
 
 void FieldWatch::show(double share) {
     const int now = int(share * 100);
-    if (now < shown_) {  // another field, or the same finer
-        bar_.reset();
-        shown_ = 0;
-    }
+    if (now < last_) bar_.reset();  // another field, or the same finer
+    last_ = now;
     const auto waited = std::chrono::steady_clock::now() - start_;
     if (!bar_ && waited < std::chrono::seconds(1)) return;
     if (!bar_) bar_.emplace("baking a distance field", 100);
-    for (; shown_ < now; ++shown_)
-        bar_->step();
+    bar_->reach(now);
 }
 
 std::string roughly(double seconds) {

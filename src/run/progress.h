@@ -17,7 +17,8 @@ class Progress {
   public:
     Progress(const std::string& what, int total);
     ~Progress();
-    void step();
+    void step() { reach(done_ + 1); }
+    void reach(int done);           // unless it is further already
     void rename(std::string what);  // the rest of the same whole is something else
 
   private:
@@ -39,7 +40,7 @@ class FieldWatch {
     void show(double share);
 
     std::optional<Progress> bar_;
-    int shown_ = 0;  // hundredths
+    int last_ = 0;  // hundredths
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -40,11 +40,8 @@ const Description& describe(const ColliderPath*) {
         }
     };
     static const auto rule = [](const ColliderPath& path, const Where& where) {
-        const std::vector<ColliderPath::Keyframe>& keys = path.keyframes;
-        needTwoKeyframes(keys.size(), where.at("keyframes"));
-        for (size_t i = 1; i < keys.size(); ++i)
-            checkRises(keys[i].time, keys[i - 1].time, where.in("keyframes", i).at("time"));
-        if (path.repeats && !same(keys.front().pose, keys.back().pose))
+        checkKeyframes(path.keyframes, where);
+        if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
             throw Error(where.at("keyframes"),
                         "expected the last pose to be the first again where the path repeats");
     };
@@ -85,17 +82,7 @@ double ColliderPath::fastestTurn() const {
 }
 
 Pose poseAt(const ColliderPath& path, double time) {
-    if (path.repeats) {
-        const double period = path.end() - path.begin(), since = time - path.begin();
-        if (since > 0) time = path.begin() + since - period * std::floor(since / period);
-    }
-    if (!(time > path.begin())) return path.keyframes.front().pose;  // also of no number
-    if (time >= path.end()) return path.keyframes.back().pose;
-    const auto next = std::upper_bound(path.keyframes.begin(), path.keyframes.end(), time,
-                                       [](double t, const ColliderPath::Keyframe& k) { return t < k.time; });
-    const auto& a = *(next - 1);
-    const auto& b = *next;
-    double s = (time - a.time) / (b.time - a.time);
+    auto [a, b, s] = between(path.keyframes, path.repeats, time);
     if (path.smooth) s = s * s * (3 - 2 * s);
     return {glm::mix(a.pose.position, b.pose.position, s), glm::slerp(a.pose.rotation, b.pose.rotation, s)};
 }

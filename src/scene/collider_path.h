@@ -24,8 +24,6 @@ struct ColliderPath {
     bool repeats = false;  // from the first after the last, whose poses are the same; else it holds
     bool smooth = false;   // eased, at rest at every keyframe; else at a constant velocity between two
 
-    double begin() const { return keyframes.front().time; }
-    double end() const { return keyframes.back().time; }
     bool turns() const;          // some rotation is not the identity
     double fastestTurn() const;  // rad/s
 };

@@ -157,10 +157,7 @@ const Description& describe(const ForcePath::Keyframe*) {
 
 const Description& describe(const ForcePath*) {
     static const auto rule = [](const ForcePath& path, const Where& where) {
-        const std::vector<ForcePath::Keyframe>& keys = path.keyframes;
-        needTwoKeyframes(keys.size(), where.at("keyframes"));
-        for (size_t i = 1; i < keys.size(); ++i)
-            checkRises(keys[i].time, keys[i - 1].time, where.in("keyframes", i).at("time"));
+        checkKeyframes(path.keyframes, where);
     };
     static const Description it =
         Describe<ForcePath>("path",
@@ -215,19 +212,7 @@ std::optional<glm::dvec3> placeOf(const ForceShape& shape) {
 
 ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
     if (!path) return {};
-    const auto& frames = path->keyframes;
-    const double begin = frames.front().time, end = frames.back().time;
-    if (path->repeats && time > begin) {
-        const double period = end - begin, since = time - begin;
-        time = begin + since - period * std::floor(since / period);
-    }
-    if (!(time > begin)) return {frames.front().offset, frames.front().factor};  // also of no number
-    if (time >= end) return {frames.back().offset, frames.back().factor};
-    const auto next = std::upper_bound(frames.begin(), frames.end(), time,
-                                       [](double t, const ForcePath::Keyframe& k) { return t < k.time; });
-    const auto& a = *(next - 1);
-    const auto& b = *next;
-    const double share = (time - a.time) / (b.time - a.time);
+    const auto [a, b, share] = between(path->keyframes, path->repeats, time);
     return {glm::mix(a.offset, b.offset, share), glm::mix(a.factor, b.factor, share)};
 }
 

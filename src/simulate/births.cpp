@@ -121,9 +121,7 @@ void Births::bindBirths(const Living& living, std::vector<GroupBuffers>& state) 
     program.storage("FreeBits", 4, own.free);
     if (!living.deathRuns.empty()) program.storage("Died", 5, died_);
     program.storage("Control", 6, lists_.control());
-    if (program.uses("samples") && tables_->sampleTexels)
-        program.texture("samples", 3, tables_->sampleTexels);
-    tables_->bindNoiseTiles(program, *plan_);
+    tables_->bind(program, *plan_, 3);
     int unit = 4;
     for (const DeathRun& run : living.deathRuns) {
         const GroupBuffers& source = state[run.source];

@@ -1,10 +1,11 @@
 // A run's state in a file, exact to the bit: what `shoal run --save` writes and `--resume` goes on from.
 //
 //   head   8 bytes of magic; u32 byte order; u32 version; u64 bytes of what follows up to the checksum
-//          f64 time, s; f64 last substep, s; u64 fingerprint of what acts on molecules; i32 frames; u64
-//          spheres, contacts and texels of colliders in what contacts remember; u32 groups the parameters as
-//          they stood; the parameters as the scene had them a group: name, molecules, vertices, springs, two
-//          fingerprints, whether it has a history and steers u64 checksum of the head
+//          f64 time, s; f64 last substep, s; u64 fingerprint of what acts on molecules; i32 frames;
+//          u64 spheres, contacts and texels of colliders in what contacts remember; u32 groups;
+//          the parameters as they stood; the parameters as the scene had them;
+//          a group: name, molecules, vertices, springs, two fingerprints, whether it has a history, steers;
+//          u64 checksum of the head
 //   body   a group: positions, velocities (3 f32 a vertex), anchors (3 f32 a molecule), released (u8)
 //          with a history: displacements, changes of velocity of the last substep (3 f32 a vertex)
 //          with life: age and length of life (2 f32), seeds (u32), scale and phase (2 f32) a place;

@@ -108,11 +108,20 @@ class ContactPasses : public ContactResult {
 
     int keyMask() const { return (1 << contact_->tableBits) - 1; }
 
-    // Each pair once, ascending.
-    static std::vector<std::pair<int, int>> once(std::vector<std::pair<int, int>> pairs) {
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-        return pairs;
+    // Returns each pair of touching spheres once, ascending. `counts` and `lists` are by slot, of which entry
+    // e of slot s lies at e * stride + s; `spheres`: of the slots that are taken.
+    static std::vector<std::pair<int, int>> pairsOf(const std::vector<uint32_t>& counts,
+                                                    const std::vector<uint32_t>& lists, size_t stride,
+                                                    const std::vector<uint32_t>& spheres) {
+        std::vector<std::pair<int, int>> out;
+        for (size_t slot = 0; slot < spheres.size(); ++slot) {
+            const size_t listed = std::min(size_t(counts[slot] & contactsMask), lists.size() / stride);
+            for (size_t e = 0; e < listed; ++e)
+                out.emplace_back(std::minmax(int(spheres[slot]), int(spheres[lists[e * stride + slot]])));
+        }
+        std::sort(out.begin(), out.end());
+        out.erase(std::unique(out.begin(), out.end()), out.end());
+        return out;
     }
 
     const Plan* plan_;

@@ -118,11 +118,7 @@ const Program& GroupKernel::useStep(const Frame& frame, size_t index) const {
 
 void GroupKernel::bindTables(const Program& program) const {
     const Tables& tables = *source_.tables;
-    if (group().needs.fields || group().needs.collide) {
-        if (tables.sampleTexels) program.texture("samples", kernel_unit::samples, tables.sampleTexels);
-        if (tables.samples) program.texture("samples", kernel_unit::samples, tables.samples);
-    }
-    tables.bindNoiseTiles(program, *source_.plan);
+    tables.bind(program, *source_.plan, kernel_unit::samples);
     if (springs_) program.texture("liveSprings", kernel_unit::springs, springs_);
     if (options_.lanes != Lanes::vertex) return;
     program.storage("Topology", 6, tables.topologyBuffer);

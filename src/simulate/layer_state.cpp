@@ -60,9 +60,7 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
     for (size_t now = 0; now < 2 && group.needs.steers; ++now)
         steering_[now] = make(Values::steering, "steering");
     for (size_t now = 0; now < 2 && group.needs.steers; ++now) {
-        std::vector<gpu::ColorTarget> all;
-        addLayers(steering_[1 - now], all);
-        newSteering_[now] = Framebuffer(context, all, nullptr, "steering");
+        newSteering_[now] = Framebuffer(context, {{&steering_[1 - now]}}, nullptr, "steering");
     }
     for (size_t now = 0; now < 2; ++now) {
         std::vector<gpu::ColorTarget> all;

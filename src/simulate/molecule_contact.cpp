@@ -325,31 +325,27 @@ static void write(gpu::Buffer& buffer, const std::vector<T>& values) {
 ContactMemory MoleculeContact::memory() const {
     if (!contact_->remembers()) return {};
     const size_t spheres = size_t(contact_->spheres), entries = padded_ * size_t(listLength_);
-    ContactMemory out;
-    out.known = readBack<glm::vec4>(known_.buffer, spheres);
-    for (glm::vec4& known : out.known)
-        out.counts.push_back(uint32_t(std::exchange(known.w, 0.0f)));
+    ContactSlots in;  // a slot is a sphere
+    in.stride = padded_;
+    in.slots.resize(spheres);
+    std::iota(in.slots.begin(), in.slots.end(), 0u);
+    in.known = readBack<glm::vec4>(known_.buffer, spheres);
+    for (const glm::vec4& known : in.known)
+        in.counts.push_back(uint32_t(known.w));
     if (!rests() &&
-        std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; }))
+        std::all_of(in.counts.begin(), in.counts.end(), [](uint32_t count) { return count == 0; }))
         return {};
-    const auto partners = readBack<uint32_t>(partners_.buffer, entries);
-    const auto pushes = readBack<glm::vec4>(oldPushes_.buffer, entries);
-    const auto anchors = readBack<glm::vec4>(oldAnchors_.buffer, entries);
-    for (size_t sphere = 0; sphere < spheres; ++sphere) {
-        for (size_t e = 0; e < out.counts[sphere]; ++e) {
-            const size_t at = e * padded_ + sphere;
-            out.partners.push_back(partners[at]);
-            out.pushes.push_back(pushes[at]);
-            out.anchors.push_back(anchors[at]);
-        }
-    }
-    out.loads = readBack<glm::vec4>(loads_.buffer, spheres);
-    out.calm = rests() ? readBack<glm::vec4>(calm_.buffer, spheres) : std::vector<glm::vec4>(spheres);
-    if (!walls_) return out;
-    out.walls = readBack<glm::vec4>(nearWalls_.buffer, 2 * ContactPlan::mostWalls * spheres);
-    const auto wallPushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
+    in.lists = readBack<uint32_t>(partners_.buffer, entries);
+    in.pushes = readBack<glm::vec4>(oldPushes_.buffer, entries);
+    in.anchors = readBack<glm::vec4>(oldAnchors_.buffer, entries);
+    in.loads = readBack<glm::vec4>(loads_.buffer, spheres);
+    const size_t walls = walls_ ? 2 * ContactPlan::mostWalls * spheres : 0;
+    in.walls = readBack<glm::vec4>(nearWalls_.buffer, walls);
+    const auto wallPushes = readBack<glm::vec4>(wallPushes_.buffer, walls);
     for (size_t i = 0; i < wallPushes.size(); i += 2)
-        out.wallPushes.push_back(wallPushes[i]);
+        in.wallPushes.push_back(wallPushes[i]);
+    ContactMemory out = bySphere(in);
+    if (rests()) out.calm = readBack<glm::vec4>(calm_.buffer, spheres);
     return out;
 }
 
@@ -378,19 +374,12 @@ void MoleculeContact::remember(const ContactMemory& memory) {
 }
 
 std::vector<std::pair<int, int>> MoleculeContact::found() const {
-    const size_t spheres = size_t(contact_->spheres);
-    const auto counts = readBack<uint32_t>(counts_.buffer, padded_);
-    const auto lists = readBack<uint32_t>(lists_.buffer, padded_ * size_t(listLength_));
-    const auto sorted = readBack<uint32_t>(pairs_.buffer, 2 * padded_);
-    std::vector<std::pair<int, int>> out;
-    for (size_t slot = 0; slot < spheres; ++slot) {
-        const size_t listed = std::min(size_t(counts[slot] & contactsMask), size_t(listLength_));
-        for (size_t e = 0; e < listed; ++e) {
-            const size_t other = lists[e * padded_ + slot];
-            out.emplace_back(std::minmax(int(sorted[2 * slot + 1]), int(sorted[2 * other + 1])));
-        }
-    }
-    return once(std::move(out));
+    const auto sorted = readBack<glm::uvec2>(pairs_.buffer, size_t(contact_->spheres));
+    std::vector<uint32_t> spheres;
+    for (const glm::uvec2& pair : sorted)
+        spheres.push_back(pair.y);
+    return pairsOf(readBack<uint32_t>(counts_.buffer, padded_),
+                   readBack<uint32_t>(lists_.buffer, padded_ * size_t(listLength_)), padded_, spheres);
 }
 
 size_t MoleculeContact::bytes() const {

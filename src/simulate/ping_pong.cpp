@@ -46,16 +46,6 @@ std::string setOnceFor(const GroupPlan& group) {
     return out;
 }
 
-// Whether a pass takes the acceleration of gravity, and so that of what contacts remember.
-bool readsLoads(PassKind kind) {
-    return kind == PassKind::advect || kind == PassKind::stage || kind == PassKind::collide;
-}
-
-// Whether a pass looks for colliders: a stage of rk4 for what rests on them.
-bool readsColliders(PassKind kind, const Needs& needs) {
-    return kind == PassKind::collide || (kind == PassKind::stage && needs.collide);
-}
-
 // How contact reads the textures of passes, a texel a vertex, and changes them.
 class VertexTexels : public ContactState {
   public:
@@ -128,7 +118,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         wanted.fragment = concat("passes/", name(pass.kind), ".frag");
         wanted.defines = defines(plan.groups[pass.group]);
         if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
-        if (plan.contact.remembers() && plan.contact.of(pass.group) && readsLoads(pass.kind))
+        if (plan.contact.remembers() && plan.contact.of(pass.group))
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
         wanted.generated = {{"generated/fields.glsl", plan.fieldSource},
@@ -138,7 +128,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         wanted.cache = options.cache;
         program = &made_.get(context, shaderRoot, wanted, setOnceFor(plan.groups[pass.group]));
         program->use();
-        if (readsColliders(pass.kind, plan.groups[pass.group].needs))
+        if (program->uses("colliderParameters"))
             program->set("colliderParameters",
                          std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
@@ -170,12 +160,11 @@ void PingPong::runSubsteps(const Frame& frame, gpu::PassTimers& timers) {
 
 void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
     gpu::drawPlainly();
-    if (!contact_) runSubsteps(frame, timers);
-    const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
+    const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 1;
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         runSubsteps(piece, timers);  // contact moves what springs had been evaluated at
-        contact_->step(piece, *contactState_, timers);
+        if (contact_) contact_->step(piece, *contactState_, timers);
     }
     if (drawn_)
         run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame},
@@ -221,25 +210,6 @@ void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& 
     }
 }
 
-namespace {
-
-// The scene's forces are part of these.
-bool readsForces(PassKind kind, const Needs& needs) {
-    switch (kind) {
-    case PassKind::thrust:
-        return true;
-    case PassKind::advect:
-    case PassKind::stage:
-        return needs.forces || needs.wind;
-    case PassKind::collide:
-        return needs.forces;
-    default:
-        return false;
-    }
-}
-
-}  // namespace
-
 // Binds what every pass reads: the group's place, its state and the tables.
 const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
     const Program& program = *programs_[index][size_t(kind)];
@@ -251,13 +221,9 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     program.texture("records", 3, state.record.read(index));
     program.texture("constants", 4, state.constant);
     program.texture("topology", 5, tables_->topology);
-    if (((kind == PassKind::advect || kind == PassKind::stage) && group.needs.fields) ||
-        readsColliders(kind, group.needs))
-        program.texture("samples", 6, tables_->samples);
-    tables_->bindNoiseTiles(program, *plan_);
-    if ((kind == PassKind::advect || kind == PassKind::stage) && state.normal)
-        program.texture("vertexNormals", 7, state.normal);
-    if (contact_ && readsLoads(kind)) contact_->bindLoads(program, 15, index);
+    tables_->bind(program, *plan_, 6);
+    if (state.normal && program.uses("vertexNormals")) program.texture("vertexNormals", 7, state.normal);
+    if (program.uses("contactLoads")) contact_->bindLoads(program, 15, index);
     return program;
 }
 
@@ -271,15 +237,15 @@ void PingPong::setSprings(const Program& program, const GroupPlan& group, const 
     if (group.solver == SolverKind::verlet) program.set("substep", float(step.h));
 }
 
-void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
-    if (step.first && group.needs.fields && (kind == PassKind::advect || kind == PassKind::stage))
+// Sets what fields, forces and colliders are told once a frame.
+void PingPong::setParameters(const Program& program, const GroupPlan& group, const Step& step) {
+    if (!step.first) return;
+    if (program.uses("fieldParameters"))
         program.set("fieldParameters", std::span<const glm::vec4>(fieldParameters(*plan_, step.frame)));
-    if (!step.first || !readsForces(kind, group.needs)) return;
-    program.set("forceParameters", std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
-}
-
-void PingPong::setColliders(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
-    if (step.first && readsColliders(kind, group.needs) && !plan_->movingColliders.empty())
+    if (program.uses("forceParameters"))
+        program.set("forceParameters",
+                    std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
+    if (program.uses("colliderParameters") && !plan_->movingColliders.empty())
         program.set("colliderParameters",
                     std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
 }
@@ -328,7 +294,7 @@ void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, b
 
 void PingPong::thrust(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::thrust, group, index);
-    setForces(program, PassKind::thrust, group, step);
+    setParameters(program, group, step);
     program.set("whole", int(shoal::solver(group.solver).order == 1));
     drawVelocity(group, index);
 }
@@ -350,7 +316,7 @@ void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, b
 void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::advect, group, index);
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
-    setForces(program, PassKind::advect, group, step);
+    setParameters(program, group, step);
     program.set("time", float(step.time - step.frame.time));
     program.set("substep", float(step.h));
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
@@ -375,8 +341,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     }
     const Program& program = prepare(PassKind::stage, group, index);
     if (group.needs.springs) setSprings(program, group, step, 0);
-    setForces(program, PassKind::stage, group, step);
-    if (s == 0) setColliders(program, PassKind::stage, group, step);
+    if (s == 0) setParameters(program, group, step);
     program.texture("positions", 0, position);
     program.texture("velocities", 1, velocity);
     program.texture("startPositions", 8, state.position.read(index));
@@ -402,7 +367,6 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
 
 void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::collide, group, index);
-    setForces(program, PassKind::collide, group, step);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
@@ -410,7 +374,7 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
         program.texture("sumAccelerations", 11, state.sumAcceleration[1]);
     if (!plan_->movingColliders.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
-    setColliders(program, PassKind::collide, group, step);
+    setParameters(program, group, step);
     drawMotion(group, index);
 }
 

@@ -77,8 +77,7 @@ class PingPong : public ExecutionPath {
     const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step,
                     double predictTime);
-    void setColliders(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
-    void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
+    void setParameters(const gpu::Program& program, const GroupPlan& group, const Step& step);
     using Targets = std::vector<gpu::ColorTarget>;
     void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);
     void drawState(const GroupPlan& group, const Targets& targets);

@@ -183,9 +183,7 @@ void PlaceLists::countPlaces(const PlaceSet& set, const Buffer& bits, int schedu
     scanPlaces_.set("allocates", int(allocates));
     setReach(scanPlaces_, set);
     scanPlaces_.set("deathRunCount", int(deaths.size()));
-    std::vector<glm::ivec4> runs(deaths.begin(), deaths.end());
-    runs.resize(mostDeathRuns);
-    scanPlaces_.set("deathRuns", std::span<const glm::ivec4>(runs));
+    scanPlaces_.set("deathRuns", deaths);
     scanPlaces_.dispatch(1);
     settleBirths();
 }

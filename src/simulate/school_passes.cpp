@@ -193,8 +193,7 @@ void SchoolPasses::setRules(size_t index, const Frame& frame) const {
     program.set("walls", glm::vec2(school.walls, school.look));
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, group, frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
-    if (tables_->sampleTexels) program.texture("samples", samplesUnit, tables_->sampleTexels);
-    if (tables_->samples) program.texture("samples", samplesUnit, tables_->samples);
+    tables_->bind(program, *plan_, samplesUnit);
 }
 
 bool SchoolPasses::change(size_t group, const School& school) {

@@ -1,4 +1,4 @@
-// Runs a plan on one of the two paths (compile/path.h). After construction a frame moves no byte of state
+// Runs a plan on one of the paths (compile/path.h). After construction a frame moves no byte of state
 // over the bus; `snapshot` and `save` read it back when asked.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Snapshot {
     std::vector<bool> alive;                        // per molecule; empty: all, for ever
 };
 
-// All that a run goes on from, exact to the bit: another simulation of the same plan, on either path, can
+// All that a run goes on from, exact to the bit: another simulation of the same plan, on any path, can
 // take it.
 struct SavedState {
     double time = 0;  // s

@@ -29,14 +29,12 @@ Frame pieceOf(const Frame& frame, int i, int steps) {
     if (steps == 1) return frame;
     const int substeps = frame.parameters.substeps;
     Frame out = frame;
-    const auto begin = [&](int piece) {
-        const int before = substeps * piece / steps;
-        return frame.time + frame.h * before;
-    };
-    out.time = begin(i);
-    out.end = i + 1 == steps ? frame.end : begin(i + 1);
+    // as evenly as can be
+    const int before = substeps * i / steps, after = substeps * (i + 1) / steps;
+    out.time = frame.time + frame.h * before;
+    out.end = i + 1 == steps ? frame.end : frame.time + frame.h * after;
     out.number = frame.number * steps + i;  // random numbers differ
-    out.parameters.substeps = ContactPlan::substepsOf(i, steps, substeps);
+    out.parameters.substeps = after - before;
     out.parameters.frameTime = frame.h * out.parameters.substeps;
     out.restarts = frame.restarts && i == 0;
     return out;

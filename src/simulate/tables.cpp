@@ -53,7 +53,9 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
     sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
 }
 
-void Tables::bindNoiseTiles(const gpu::Program& program, const Plan& plan) const {
+void Tables::bind(const gpu::Program& program, const Plan& plan, int unit) const {
+    if (sampleTexels && program.uses("samples")) program.texture("samples", unit, sampleTexels);
+    if (samples && program.uses("samples")) program.texture("samples", unit, samples);
     constexpr int firstUnit = 24;  // beyond all others; OpenGL 3.3 has 48
     for (size_t i = 0; i < noiseTiles.size(); ++i)
         if (program.uses(plan.noiseTiles[i].sampler()))

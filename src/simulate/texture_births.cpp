@@ -116,8 +116,7 @@ void TextureBirths::bindBirths(const Program& program, const Living& living,
     if (living.listed()) program.texture("places", 0, own_[living.group].places);
     program.texture("control", 1, places_.control());
     if (!living.deathRuns.empty()) program.texture("died", 2, died_);
-    if (program.uses("samples")) program.texture("samples", 3, tables_->samples);
-    tables_->bindNoiseTiles(program, *plan_);
+    tables_->bind(program, *plan_, 3);
     int unit = 4;
     for (const DeathRun& run : living.deathRuns) {
         program.texture(concat("sourceStates", run.emitter).c_str(), unit++, state[run.source].state());

@@ -225,9 +225,6 @@ const Program& TextureContact::useGroup(const Program& program, size_t group) co
 }
 
 void TextureContact::makeWalls(const Frame& frame, ContactState& state) {
-    std::vector<gpu::ColorTarget> into;
-    for (int layer = 0; walls_ && layer < nearWalls_[now_].layers(); ++layer)
-        into.emplace_back(&nearWalls_[now_], layer);
     for (size_t g = 0; g < groups_.size(); ++g) {
         if (!groups_[g].walls) continue;
         const ContactGroup& group = contact_->groups[g];
@@ -239,15 +236,14 @@ void TextureContact::makeWalls(const Frame& frame, ContactState& state) {
         program.set("colliderParameters", std::span<const glm::vec4>(parameters));
         program.set("contactStep", float(frame.parameters.frameTime));
         program.set("givenRadius", float(group.radius));
-        if (tables_->samples && program.uses("samples")) program.texture("samples", 3, tables_->samples);
-        drawGroup(into, g);
+        tables_->bind(program, *plan_, 3);
+        drawGroup({&nearWalls_[now_]}, g);
     }
 }
 
 void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
     Into into = {&spherePlaces_, &sphereMotions_, &sphereCells_};
-    for (int layer = 0; rigid_ && layer < 3; ++layer)
-        into.emplace_back(&bodies_, layer);
+    if (rigid_) into.emplace_back(&bodies_);
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
@@ -341,31 +337,23 @@ void TextureContact::search(ContactState&, const Times& times) {
     drawAll({&counts_[now_], &lists_[now_]});
 }
 
-static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
-    std::vector<uint32_t> out(size_t(texture.width()) * size_t(texture.height()) *
-                              texelBytes(texture.format()) / sizeof(uint32_t));
-    texture.download(kind, 0, 0, texture.width(), texture.height(), out.data(), out.size() * sizeof(uint32_t),
-                     layer);
-    return out;
-}
-
-uint32_t TextureContact::dropped() const {
-    const std::vector<uint32_t> counts = readBack(counts_[now_], Traffic::Kind::control);
-    uint32_t out = 0;
-    for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
-        out += counts[2 * slot + 1];
-    return out;
-}
-
 // Texels by number, of each layer after the other.
 template <typename T>
-static std::vector<T> readLayers(const Texture& texture) {
+static std::vector<T> readLayers(const Texture& texture, Traffic::Kind kind = Traffic::Kind::state) {
     const size_t texels = size_t(texture.width()) * size_t(texture.height());
     const int layers = std::max(texture.layers(), 1);
     std::vector<T> out(texels * size_t(layers));
     for (int layer = 0; layer < layers; ++layer)
-        texture.download(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
-                         out.data() + texels * size_t(layer), texels * sizeof(T), layer);
+        texture.download(kind, 0, 0, texture.width(), texture.height(), out.data() + texels * size_t(layer),
+                         texels * sizeof(T), layer);
+    return out;
+}
+
+uint32_t TextureContact::dropped() const {
+    const auto counts = readLayers<glm::uvec2>(counts_[now_], Traffic::Kind::control);
+    uint32_t out = 0;
+    for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
+        out += counts[slot].y;
     return out;
 }
 
@@ -395,6 +383,17 @@ static std::vector<glm::vec4> apart(const std::vector<glm::vec4>& of, size_t str
     return out;
 }
 
+// Entries of all slots, one after another.
+static std::vector<uint32_t> readLists(const Texture& texture) {
+    const auto lists = readLayers<glm::uvec4>(texture);  // four entries a texel
+    const size_t stride = lists.size() / size_t(listLayers);
+    std::vector<uint32_t> out;
+    for (size_t e = 0; e < 4 * size_t(listLayers); ++e)
+        for (size_t slot = 0; slot < stride; ++slot)
+            out.push_back(lists[e / 4 * stride + slot][int(e % 4)]);
+    return out;
+}
+
 ContactMemory TextureContact::memory() const {
     if (!contact_->remembers()) return {};
     const size_t spheres = size_t(contact_->spheres);
@@ -407,10 +406,7 @@ ContactMemory TextureContact::memory() const {
         out.counts.push_back(std::min(count.x & contactsMask, uint32_t(longestList)));
     if (std::all_of(counts.begin(), counts.end(), [](const glm::uvec2& count) { return count.x == 0; }))
         return {};
-    const auto lists = readLayers<glm::uvec4>(lists_[now_]);
-    for (int e = 0; e < longestList; ++e)
-        for (size_t slot = 0; slot < out.stride; ++slot)
-            out.lists.push_back(lists[size_t(e / 4) * out.stride + slot][e % 4]);
+    out.lists = readLists(lists_[now_]);
     out.pushes = readLayers<glm::vec4>(pushes_[0]);
     out.anchors = readLayers<glm::vec4>(anchors_[now_]);
     out.known = readLayers<glm::vec4>(known_[now_]);
@@ -459,20 +455,12 @@ void TextureContact::remember(const ContactMemory& memory) {
 }
 
 std::vector<std::pair<int, int>> TextureContact::found() const {
-    const std::vector<uint32_t> counts = readBack(counts_[now_], Traffic::Kind::state);
-    const std::vector<KeyIndex> sorted = sort_.download();
-    std::vector<std::pair<int, int>> out;
-    for (int layer = 0; layer < listLayers; ++layer) {
-        const std::vector<uint32_t> entries = readBack(lists_[now_], Traffic::Kind::state, layer);
-        for (size_t slot = 0; slot < sorted.size(); ++slot) {
-            const size_t listed = std::min(counts[2 * slot] & contactsMask, uint32_t(longestList));
-            for (size_t e = 4 * size_t(layer); e < std::min(listed, 4 * size_t(layer) + 4); ++e) {
-                const size_t other = entries[4 * slot + e % 4];
-                out.emplace_back(std::minmax(int(sorted[slot].index), int(sorted[other].index)));
-            }
-        }
-    }
-    return once(std::move(out));
+    std::vector<uint32_t> counts, spheres;
+    for (const glm::uvec2& count : readLayers<glm::uvec2>(counts_[now_]))
+        counts.push_back(count.x);
+    for (const KeyIndex& pair : sort_.download())
+        spheres.push_back(pair.index);
+    return pairsOf(counts, readLists(lists_[now_]), counts.size(), spheres);
 }
 
 size_t TextureContact::bytes() const {

@@ -126,9 +126,7 @@ void TexturePlaces::put(const Program& program, int scheduled, std::span<const g
     program.set("scheduled", scheduled);
     program.set("allocates", int(allocates));
     program.set("deathRunCount", int(deaths.size()));
-    std::vector<glm::ivec4> runs(deaths.begin(), deaths.end());
-    runs.resize(mostDeathRuns);
-    program.set("deathRuns", std::span<const glm::ivec4>(runs));
+    program.set("deathRuns", deaths);
     newControl_[now_].bind();
     noAttributes_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);

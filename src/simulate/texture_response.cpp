@@ -44,9 +44,7 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
 
 void TextureContact::runNearest(ContactState&, const Times& times) {
     bindResponse(nearest_, times);
-    Into into;
-    addLayers(into, totals_[0], 0, 2);
-    drawAll(into);
+    drawAll({&totals_[0]});
 }
 
 void TextureContact::prepare(ContactState&, const Times& times) {
@@ -74,17 +72,11 @@ void TextureContact::prepare(ContactState&, const Times& times) {
     prepareSums_.texture("oldKnown", unit++, known_[before]);
     prepareSums_.texture("pushes", unit++, pushes_[0]);
     prepareSums_.texture("anchors", unit++, anchors_[now_]);
-    Into into;
-    addLayers(into, totals_[0], 0, 2);
-    into.emplace_back(&known_[now_]);
-    if (spreads_)
-        addLayers(into, contactSums_, 0, 2);
-    else
-        into.emplace_back(&effectiveCounts_);
+    Into into = {&totals_[0], &known_[now_], spreads_ ? &contactSums_ : &effectiveCounts_};
     if (walls_) {
         prepareSums_.texture("oldWalls", unit++, nearWalls_[before]);
         prepareSums_.texture("oldWallPushes", unit++, wallPushes_[0]);
-        addLayers(into, wallPushes_[2], 0, ContactPlan::mostWalls);
+        into.emplace_back(&wallPushes_[2]);
     }
     drawAll(into);
     if (walls_) turn(wallPushes_);
@@ -153,12 +145,11 @@ void TextureContact::relax(ContactState& state, const Times& times, int iteratio
     turn(pushes_);
     unit = bind(relaxSums_);
     relaxSums_.texture("known", unit++, known_[now_]);
-    Into into;
-    addLayers(into, totals_[2], 0, 2);
+    Into into = {&totals_[2]};
     if (walls_) {
         relaxSums_.texture("wallPushes", unit++, wallPushes_[0]);
         relaxSums_.texture("earlierWallPushes", unit++, wallPushes_[earlier]);
-        addLayers(into, wallPushes_[2], 0, ContactPlan::mostWalls);
+        into.emplace_back(&wallPushes_[2]);
     }
     drawAll(into);
     if (walls_) turn(wallPushes_);
@@ -166,8 +157,6 @@ void TextureContact::relax(ContactState& state, const Times& times, int iteratio
 }
 
 void TextureContact::spread(ContactState& state, const Texture& earlier, float momentum) {
-    Into into;
-    addLayers(into, motionsNow_, 0, 2);
     for (size_t g = 0; g < groups_.size(); ++g) {
         const Program& program = useGroup(groups_[g].spread, g);
         bindGroup(program, state, g);
@@ -176,7 +165,7 @@ void TextureContact::spread(ContactState& state, const Texture& earlier, float m
         program.texture("earlier", 10, earlier);
         program.set("momentum", momentum);
         program.set("count", contact_->spheres);
-        drawAll(into);
+        drawAll({&motionsNow_});
     }
 }
 
@@ -197,17 +186,11 @@ void TextureContact::settle(ContactState&, const Times& times) {
     settle_.texture("anchors", unit++, anchors_[now_]);
     settle_.texture("totals", unit++, totals_[0]);
     if (walls_) settle_.texture("wallPushes", unit++, wallPushes_[0]);
-    Into into;
-    addLayers(into, totals_[2], 0, 2);
-    into.emplace_back(&known_[now_]);
-    drawAll(into);
+    drawAll({&totals_[2], &known_[now_]});
     turn(totals_);
 }
 
 void TextureContact::apply(ContactState& state, const Times& times) {
-    Into into;
-    addLayers(into, gains_, 0, 2);
-    into.emplace_back(&loads_);
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const Program& program = useGroup(groups_[g].gains, g);
@@ -217,7 +200,7 @@ void TextureContact::apply(ContactState& state, const Times& times) {
         if (program.uses("cells")) program.texture("cells", 12, cells_);
         program.texture("known", 10, known_[now_]);
         program.set("stepTime", float(times.step));
-        drawGroup(into, g);
+        drawGroup({&gains_, &loads_}, g);
         state.apply(group.group, [&](const Program& applies, int firstUnit) {
             applies.set("firstSphere", group.firstSphere);
             applies.texture("gains", firstUnit, gains_);

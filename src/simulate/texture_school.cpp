@@ -7,7 +7,6 @@
 
 namespace shoal {
 
-using gpu::ColorTarget;
 using gpu::Format;
 using gpu::Framebuffer;
 using gpu::Program;
@@ -41,14 +40,8 @@ TextureSchool::TextureSchool(gpu::Context& context, const std::string& shaderRoo
     places_ = texture(Format::rgba32f, school_->entries, "school places");
     velocities_ = texture(Format::rgba32f, school_->entries, "school velocities");
     slotSteering_ = texture(Format::rgba32f, school_->entries, "school steering", steeringElements);
-    const auto allLayers = [&](const Texture& layered) {
-        std::vector<ColorTarget> layers;
-        for (int e = 0; e < layered.layers(); ++e)
-            layers.emplace_back(&layered, e);
-        return Framebuffer(context, layers, nullptr, layered.label().c_str());
-    };
-    newBodies_ = allLayers(bodies_);
-    newSlotSteering_ = allLayers(slotSteering_);
+    newBodies_ = Framebuffer(context, {{&bodies_}}, nullptr, "school bodies");
+    newSlotSteering_ = Framebuffer(context, {{&slotSteering_}}, nullptr, "school steering");
     newStarts_ = Framebuffer(context, {{&startsOf_}}, nullptr, "school cells");
     newOrder_ = Framebuffer(context, {{&places_}, {&velocities_}}, nullptr, "school order");
     makePrograms(shaderRoot, cache);

@@ -5,8 +5,7 @@
 // No slot is given out by an atomic: a pair's place follows from the pairs before it alone, so a repeat gives
 // the same bits. Two ways to the same result:
 //   pieces: a lane takes a piece of its own, one pair after the other, and counts in a private array, in
-//   digits
-//           of up to 11 bits. For CPU rasterisers: nothing is shared and nobody waits.
+//           digits of up to 11 bits. For CPU rasterisers: nothing is shared and nobody waits.
 //   tiles:  a workgroup sorts a tile of 2,048 pairs by the digit in shared memory, then writes its runs, in
 //           digits of up to 8 bits. For GPUs: neighbouring lanes write neighbouring memory.
 // Sources: [Zagha 1991] (pieces), [Satish 2009] (tiles).

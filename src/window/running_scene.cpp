@@ -14,15 +14,9 @@ namespace shoal::window {
 
 namespace {
 
-// Copies the values of groups that are edited and saved.
 void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
-    for (size_t g = 0; g < from.size(); ++g) {
-        to[g].life = from[g].life;
-        to[g].particle = from[g].particle;
-        to[g].school = from[g].school;
-        to[g].color = from[g].color;
-        to[g].secondColor = from[g].secondColor;
-    }
+    for (size_t g = 0; g < from.size(); ++g)
+        copyEdited(from[g], to[g]);
 }
 
 void settleParticles(Scene& scene) {

@@ -12,5 +12,6 @@ shoal::gpu::Context& testContext();
 inline bool keepsBits() {
     return testContext().info().software;
 }
-// The path that simulations are tested on: SHOAL_TEST_PATH=fused|ping-pong, else what the context can do.
+// The path that simulations are tested on: SHOAL_TEST_PATH=fused|fragments|ping-pong, else what the context
+// can do.
 shoal::Path testPath();

@@ -62,46 +62,6 @@ double heightOf(const HeightFieldCollider& field, double x, double z) {
 
 }  // namespace
 
-TEST_CASE("passes: a bounce reaches e^2 of its height at 16 phases", "[numerics][contact]") {
-    const double h = 1 / 240.0, thickness = 0.01;
-    for (SolverKind kind : bothSolvers) {
-        for (double e : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            std::vector<test::Item> items;
-            for (int phase = 0; phase < 16; ++phase) {
-                items.push_back(at({3 * phase, 1 + phase / 16.0 * std::sqrt(2 * g) * h + thickness + 2, 0}));
-            }
-            Scene scene = test::sceneOf(test::point(1), kind, items);
-            scene.gravity = {0, -g, 0};
-            // friction must not matter, so that half of the plane's runs have some speed along it
-            scene.groups[0].velocity = {0.7, kind == SolverKind::euler ? g * h / 2 : 0, 0};
-            scene.colliders = {collider(plane({0, 2, 0}, {0, 1, 0}), e, 0.4)};
-            setSteps(scene, h, 1);
-            Simulation simulation = test::simulationOf(scene);
-            std::vector<double> best(16, 0), last(16, 1e9);
-            std::vector<int> bounces(16, 0);
-            for (int i = 0; i < 300; ++i) {
-                simulation.frame();
-                const Snapshot now = simulation.snapshot(0);
-                for (size_t m = 0; m < 16; ++m) {
-                    const double lag =
-                        kind == SolverKind::euler ? h / 2 : 0;  // to the velocity at the position
-                    const double v = now.velocities[m].y - g * lag;
-                    if (now.velocities[m].y > last[m] + 1e-3) ++bounces[m];
-                    last[m] = now.velocities[m].y;
-                    const double height = now.positions[m].y - 2 - thickness;
-                    if (bounces[m] == 1) best[m] = std::max(best[m], height + (v > 0 ? v * v / (2 * g) : 0));
-                }
-            }
-            for (size_t m = 0; m < 16; ++m) {
-                const double drop = 1 + double(m) / 16 * std::sqrt(2 * g) * h;
-                INFO(name(kind) << " e " << e << " phase " << m << " ratio " << best[m] / drop);
-                CHECK(bounces[m] >= 1);
-                CHECK(std::abs(best[m] / drop - e * e) < 0.02 * std::max(e * e, 0.05));
-            }
-        }
-    }
-}
-
 // A point flies past the upper edge of a box, or the side of a ball, nearer and nearer to head-on; both are
 // rounded, the edge by the collider's thickness only.
 TEST_CASE("what meets an edge or a ball leaves by the normal of the touch", "[numerics][contact]") {
@@ -132,40 +92,6 @@ TEST_CASE("what meets an edge or a ball leaves by the normal of the touch", "[nu
                 const glm::dvec3 v = glm::dvec3(speed, 0, 0) - n * ((1 + e) * speed * n.x);
                 CAPTURE(ball, substeps, i);
                 CHECK(glm::distance(now.velocities[i], v) < (ball ? 6e-5 : 4e-4));
-            }
-        }
-    }
-}
-
-TEST_CASE("passes: a slope slides at g (sin a - mu cos a) and holds below atan mu", "[numerics][contact]") {
-    const double mu = 0.5, seconds = 1.5;
-    for (SolverKind kind : bothSolvers) {
-        for (double degrees : {15.0, 26.0, 28.0, 45.0}) {
-            const double a = degrees * std::numbers::pi / 180;
-            const glm::dvec3 normal{std::sin(a), std::cos(a), 0}, down{std::cos(a), -std::sin(a), 0};
-            Scene scene =
-                test::sceneOf(test::point(1), kind, {at(0.01 * normal), at(0.01 * normal - 4.0 * down)});
-            scene.gravity = {0, -g, 0};
-            scene.colliders = {collider(plane({0, 0, 0}, normal), 0.3, mu)};
-            setSteps(scene, 1 / 60.0, 4);
-            Simulation simulation = test::simulationOf(scene);
-            for (int substeps : {1, 4, 16}) {
-                simulation.restart();
-                simulation.parameters.substeps = substeps;
-                const Snapshot start = simulation.snapshot(0);
-                run(simulation, int(std::lround(60 * seconds)));
-                const Snapshot now = simulation.snapshot(0);
-                const double slide = g * (std::sin(a) - mu * std::cos(a));
-                for (size_t m = 0; m < 2; ++m) {
-                    INFO(name(kind) << " angle " << degrees << " substeps " << substeps << " molecule " << m);
-                    if (slide <= 0) {
-                        CHECK(glm::length(now.positions[m] - start.positions[m]) < 1e-5);
-                        CHECK(glm::length(now.velocities[m]) < 1e-6);
-                    } else {
-                        CHECK(glm::dot(now.velocities[m], down) / seconds == Approx(slide).epsilon(0.01));
-                        CHECK(std::abs(glm::dot(now.positions[m], normal) - 0.01) < 1e-3);
-                    }
-                }
             }
         }
     }

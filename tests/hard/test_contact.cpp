@@ -82,7 +82,7 @@ TEST_CASE("hard: a bounce", "[hard][contact]") {
             setSteps(scene, h, 1);
             Simulation simulation = test::hardSimulation(scene);
             const std::vector<double> heights = bounceHeights(solver, simulation, 16, h);
-            for (size_t m = 0; m < 16; ++m)  // +-2 % (NUMERICS 5); without restitution 0.1 mm of 0.1 m
+            for (size_t m = 0; m < 16; ++m)  // +-2 %; without restitution 0.1 mm of 0.1 m
                 judge.near("ratio", heights[m] / drops[m], e * e, e > 0 ? 0.02 * e * e : 0.001);
         });
     }

@@ -56,7 +56,7 @@ TEST_CASE("hard: a rigid spin", "[hard][rigid]") {
         test::runChecked(simulation, 1200);
         const reference::State end = test::stateOf(simulation.snapshot(0), 0);
         const glm::dvec3 before = angularMomentum(problem, start), after = angularMomentum(problem, end);
-        // NUMERICS 5: 1e-5 in float is what 9600 random roundings of 6e-8 leave; 25 % what BDF2 may damp
+        // 1e-5 in float is what 9600 random roundings of 6e-8 leave; 25 % what BDF2 may damp
         judge.atMost("lost", glm::length(after - before) / glm::length(before),
                      solver.implicit ? 0.25 : 1e-5 + test::divided(solver, 9600));
     };

@@ -76,7 +76,7 @@ TEST_CASE("hard: a spring kicked at rest length", "[hard][springs]") {
 }
 
 // A force from the first moment on, which a method that goes on from its last step does not know of. The
-// slope on halving is the table's order +-0.15 (NUMERICS 5): what is left of the next order at these steps.
+// slope on halving is the table's order +-0.15: what is left of the next order at these steps.
 TEST_CASE("hard: a spring let go stretched", "[hard][springs]") {
     for (double damping : {0.0, 0.5}) {
         test::holds(damping > 0 ? "damped spring" : "harmonic spring",

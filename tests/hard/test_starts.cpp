@@ -101,7 +101,7 @@ void judgeStarts(const std::string& label, const Setting& setting) {
     for (int start = 0; start < starts; ++start) {
         test::holds(concat(startNames[start], ", ", label), [&](const Solver& solver, Judge& judge) {
             if (!known.contains(solver.name)) known[solver.name] = strainsOf(solver, setting);
-            judge.atMost("strain", known[solver.name][size_t(start)], 0.3);  // NUMERICS 5
+            judge.atMost("strain", known[solver.name][size_t(start)], 0.3);
         });
     }
 }

@@ -128,7 +128,6 @@ TEST_CASE("hard: mass ratio 1e6", "[hard][stiff]") {
         Simulation simulation = test::hardSimulation(scene);
         test::startFrom(simulation, [](GroupState& start) { test::scaleMolecules(start, glm::dvec3(1.01)); });
         test::runChecked(simulation, 300);
-        // NUMERICS 5
         judge.atMost("strain", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)), 1e-5);
     };
     test::holds("mass ratio 1e6, w h 1.5", [&](const Solver& s, Judge& judge) { settle(s, judge, 50); });

@@ -17,7 +17,7 @@ static Molecule chain(int count, double mass, double stiffness, double damping) 
     return molecule;
 }
 
-// NUMERICS' folded leaf (fold 0.12) or Decker's flat quad (fold 0), every mass 1.
+// The folded leaf (fold 0.12) or Decker's flat quad (fold 0), every mass 1.
 static Molecule quad(double fold, double stiffness = 100) {
     Molecule molecule;
     const double side[4][2] = {{-0.5, 0}, {0.5, 0}, {0.5, 1}, {-0.5, 1}};

@@ -119,6 +119,7 @@ class Validator {
         const bool inTextures = has("TEXTURES");
         for (const bool layered : {false, true}) {
             if (layered && !inTextures) break;
+            if (!layered && inTextures && has("LIFE")) continue;  // the ping-pong path has no births
             if (layered) {
                 std::replace(defines.begin(), defines.end(), std::string("TEXTURES"), std::string("LAYERED"));
                 defines.insert(defines.end(), {"POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"});
@@ -569,7 +570,7 @@ TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
             validator.addPicture("particles/particle.frag", set);
         }
     }
-    CHECK(validator.count() == 172);
+    CHECK(validator.count() == 118);
     validator.check();
 }
 

@@ -89,8 +89,7 @@ const Description& describe(const Model*) {
                    {"", "What multiplies the colours of its materials, images and vertices."})
             .key("roughness", &Model::roughness, {"", "How dull it is.", Range::between(0, 1)})
             .usually("as its materials say, else 0.9")
-            .key("grain", &Model::grain,
-                 {"", "The strength of the drawn grain.", Range::between(0, 1)})
+            .key("grain", &Model::grain, {"", "The strength of the drawn grain.", Range::between(0, 1)})
             .word("grainOf", &Model::grainOf, grainKinds,
                   {"",
                    "What the grain is of: earth is soil and grass on what faces up, and bark elsewhere; "

@@ -44,11 +44,7 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
         const JsonValue* count = groups.items[g].find("count");
         if (count && count->kind == JsonValue::Kind::number) group.count = int(count->number);
         JsonReader reader(groups.items[g], after.file, concat("$.groups[", g, "]"));
-        group.particle.reset();
-        group.life.reset();
-        group.school.reset();
-        group.color.reset();
-        group.secondColor.reset();
+        copyEdited(Group(), group);
         std::vector<Warning> warnings;
         SceneReading reading{after.models, baking, warnings};
         describe(&group).readSome(edited, reader, group, &reading);
@@ -66,6 +62,14 @@ std::optional<size_t> sameGroup(const std::vector<Group>& groups, size_t g, cons
 }
 
 }  // namespace
+
+void copyEdited(const Group& from, Group& to) {
+    to.particle = from.particle;
+    to.life = from.life;
+    to.school = from.school;
+    to.color = from.color;
+    to.secondColor = from.secondColor;
+}
 
 std::string withEdits(const std::string& text, const Scene& before, const Scene& after) {
     const JsonValue root = parseJson(text, before.file);
@@ -105,13 +109,8 @@ MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& the
     out.groups = theirs.groups;
     if (changes.empty()) return out;
     const std::vector<Group> read = readEdited(withChanges(text, std::move(changes)), theirs);
-    for (const size_t g : edited) {
-        out.groups[g].particle = read[g].particle;
-        out.groups[g].life = read[g].life;
-        out.groups[g].school = read[g].school;
-        out.groups[g].color = read[g].color;
-        out.groups[g].secondColor = read[g].secondColor;
-    }
+    for (const size_t g : edited)
+        copyEdited(read[g], out.groups[g]);
     return out;
 }
 

@@ -15,6 +15,9 @@ namespace shoal {
 // differs in `after`. Both have the same groups. Error: it has not, or it would not read back.
 std::string withEdits(const std::string& text, const Scene& before, const Scene& after);
 
+// Copies the values of these keys.
+void copyEdited(const Group& from, Group& to);
+
 // Whether saving would change a file.
 bool differ(const Scene& before, const Scene& after);
 
