@@ -60,7 +60,7 @@ void loadLoads(int molecule)
 
 void main()
 {
-#if defined(WATCH) && !defined(LAYERED) && !defined(SOFTWARE)
+#ifdef ISSUED_AHEAD
     if (comesTooLate()) return;
 #endif
     int molecule = ownMolecule();

@@ -22,12 +22,13 @@ void watch()
     if (runsAway()) alarm = uint(givenCounts.x) + 1u;
 }
 
-// Whether an earlier frame left a state that ran away: then this frame, which was issued before anybody knew, changes
-// nothing.
+#ifdef ISSUED_AHEAD
+// Whether an earlier frame left a state that ran away.
 bool comesTooLate()
 {
     uint raised = alarm;
     return raised != 0u && raised != uint(givenCounts.x) + 1u;
 }
+#endif
 #endif
 #endif

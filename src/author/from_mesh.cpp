@@ -10,7 +10,7 @@
 
 #include "author/coarse.h"
 #include "author/springs.h"
-#include "compile/path.h"
+#include "core/error.h"
 #include "geometry/close_holes.h"
 #include "geometry/doubled_walls.h"
 #include "geometry/subdivide.h"
@@ -505,10 +505,6 @@ class Maker {
 
 }  // namespace
 
-int mostMadeVertices() {
-    return 227;  // whose frequencies are found within seconds; any device holds more
-}
-
 void checkOptions(const FromMesh& o) {
     const auto above = [](const char* what, const std::optional<double>& value, double most,
                           const char* unit) {
@@ -531,10 +527,9 @@ void checkOptions(const FromMesh& o) {
     if (o.rings && *o.rings < 2) throw Error("expected at least 2 rings, found ", *o.rings);
     if (!o.rings && asked < leastMadeVertices)
         throw Error("expected at least ", leastMadeVertices, " vertices, found ", asked);
-    if (asked > mostMadeVertices())
-        throw Error("a molecule of ", asked, " vertices is larger than the fused path holds: at most ",
-                    mostMadeVertices(),
-                    o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : "");
+    if (asked > mostMadeVertices)
+        throw Error("a molecule of ", asked, " vertices takes too long to make: at most ", mostMadeVertices,
+                    o.rings ? concat(", which are ", mostMadeVertices / 4, " rings") : "");
     if (o.rings && (o.springs == FromMesh::Springs::lattice || o.springs == FromMesh::Springs::cage))
         throw Error("expected either rings or a ", o.springs == FromMesh::Springs::cage ? "cage" : "lattice",
                     ", found both");

@@ -72,12 +72,10 @@ struct FromMesh {
     std::string name;
 };
 
-// The fewest vertices that can hold a body, and the most that the fused path runs on every device
-// (compile/path.h).
-constexpr int leastMadeVertices = 4, usualMadeVertices = 24;
+// The fewest vertices that can hold a body, and the most whose frequencies are found within seconds.
+constexpr int leastMadeVertices = 4, usualMadeVertices = 24, mostMadeVertices = 227;
 constexpr int cageVertices =
     40;  // which CPU rasterisers compile with the implicit solvers that stiff springs need
-int mostMadeVertices();
 
 struct MadeMolecule {
     Molecule molecule;

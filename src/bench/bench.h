@@ -208,13 +208,14 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry);
 
 struct SchoolTimes {
     SchoolCase one;
-    measure::Spread frame;                                    // s, wall time
+    std::string leftOut = {};                                 // why it was not measured; empty: it was
+    measure::Spread frame = {};                               // s, wall time
     measure::Spread device = {};                              // s, as BenchResult's
     double perFish() const { return frame.min / one.count; }  // s
 };
 
-// Error: the driver refuses a shader.
+// What the device has no memory for is left out. Error: the driver refuses a shader.
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
-                                        const BenchDevice& device, double seconds);
+                                        const BenchDevice& device, const measure::Schedule& schedule);
 
 }  // namespace shoal::bench

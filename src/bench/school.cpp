@@ -1,6 +1,5 @@
 #include "bench/bench.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -12,10 +11,10 @@ namespace {
 
 class SchoolEntrant {
   public:
-    SchoolEntrant(const SchoolCase& one, const Molecule& fry, const BenchDevice& device)
-        : one_(one),
-          simulation_(*device.context, device.shaderRoot, compile(schoolScene(one, fry)),
-                      {.drawn = false, .path = one.path, .cache = device.cache}),
+    SchoolEntrant(SchoolTimes& times, const Molecule& fry, const BenchDevice& device)
+        : times_(times),
+          simulation_(*device.context, device.shaderRoot, compile(schoolScene(times.one, fry)),
+                      {.drawn = false, .path = times.one.path, .cache = device.cache}),
           ownTimes_(device.ownTimes) {}
 
     // Half a second, by which they are in motion; then what a visit costs.
@@ -30,7 +29,10 @@ class SchoolEntrant {
         samples_.push_back(measure::secondsOf([&] { run(frames); }) / frames);
         if (ownTimes_) device_.push_back(timer_.secondsOf([&] { simulation_.frame(); }));
     }
-    SchoolTimes finish() const { return {one_, measure::spreadOf(samples_), measure::spreadOf(device_)}; }
+    void finish() {
+        times_.frame = measure::spreadOf(samples_);
+        times_.device = measure::spreadOf(device_);
+    }
 
     double seconds = 0;  // of a visit
 
@@ -41,7 +43,7 @@ class SchoolEntrant {
             simulation_.frame();
         simulation_.check();  // waits
     }
-    SchoolCase one_;
+    SchoolTimes& times_;
     Simulation simulation_;
     bool ownTimes_;
     gpu::DeviceTimer timer_;
@@ -83,25 +85,13 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
 }
 
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
-                                        const BenchDevice& device, double seconds) {
-    std::vector<std::unique_ptr<SchoolEntrant>> entrants;
-    entrants.reserve(cases.size());
-    for (const SchoolCase& one : cases)
-        entrants.push_back(std::make_unique<SchoolEntrant>(one, fry, device));
-    double round = 0;
-    for (auto& entrant : entrants)
-        entrant->warmUp();
-    measure::pinRasteriserThreads();  // all of them run by now
-    for (auto& entrant : entrants)
-        round += entrant->seconds;
-    const int rounds = std::clamp(int(seconds / std::max(round, 1e-6)), 5, 200);
-    for (int i = 0; i < rounds; ++i)
-        for (auto& entrant : entrants)
-            entrant->visit();
+                                        const BenchDevice& device, const measure::Schedule& schedule) {
     std::vector<SchoolTimes> out;
-    out.reserve(cases.size());
-    for (auto& entrant : entrants)
-        out.push_back(entrant->finish());
+    for (const SchoolCase& one : cases)
+        out.push_back({.one = one});
+    measureInTurn(
+        out, schedule, [](double) {},
+        [&](SchoolTimes& times) { return std::make_unique<SchoolEntrant>(times, fry, device); });
     return out;
 }
 

@@ -98,63 +98,76 @@ class PairCopy : public SortRunner {
     gpu::Buffer from_, to_;
 };
 
-struct Running {
-    SortTime time;
-    std::unique_ptr<SortRunner> runner;
-    std::vector<double> seconds, device;
-};
-
-std::vector<Running> runnersOf(int side, const BenchDevice& device, const KeyPairs& input) {
-    std::vector<Running> out;
-    const auto add = [&](SortTime time, std::unique_ptr<SortRunner> runner) {
-        if (runner) time.passes = runner->passes;
-        out.push_back({std::move(time), std::move(runner), {}, {}});
-    };
-    const gpu::ContextInfo& info = device.context->info();
+// The sorts that there are, with why one is left out; then std::sort and the copy.
+std::vector<SortTime> sortsOf(int side, const gpu::ContextInfo& info) {
+    std::vector<SortTime> out;
     for (const SortMethodRow& method : sortMethods()) {
         for (const bool rowsOnly : {false, true}) {
             if (rowsOnly && !method.rowsOnly) continue;
-            SortTime time;
+            SortTime& time = out.emplace_back();
             time.name = concat(method.name, rowsOnly ? ", rows only" : "");
             time.method = method.method;
             time.rowsOnly = rowsOnly;
-            if (side > SortTable::mostOfAll && method.method != SortMethod::radix) {
+            if (side > SortTable::mostOfAll && method.method != SortMethod::radix)
                 time.leftOut = "too slow for so many";
-                add(time, nullptr);
-                continue;
-            }
-            if (!canRun(method.method, info)) {
+            else if (!canRun(method.method, info))
                 time.leftOut = concat("needs OpenGL ", method.major, ".", method.minor, "; this context has ",
                                       info.major, ".", info.minor);
-                add(time, nullptr);
-                continue;
-            }
-            add(time, std::make_unique<DeviceSort>(device, method.method, rowsOnly, side, input));
         }
     }
-    add({.name = "std::sort, one thread"}, std::make_unique<StdSort>(input));
-    add({.name = "copy", .copy = true}, std::make_unique<PairCopy>(device, input));
+    out.push_back({.name = "std::sort, one thread"});
+    out.push_back({.name = "copy", .copy = true});
     return out;
 }
 
-// A first run of each, not counted: it finds what a visit costs, and whether the sort sorts.
-std::vector<double> costs(std::vector<Running>& all) {
-    std::vector<double> out;
-    for (Running& one : all) {
-        if (!one.runner) {
-            out.push_back(1);
-            continue;
-        }
-        one.runner->run();
-        if (!one.runner->isSorted()) throw Error(concat("bench sort: ", one.time.name, " did not sort"));
-        out.push_back(measure::secondsOf([&] {
-            one.runner->restart();
-            one.runner->run();
-            one.runner->finish();
-        }));
-    }
-    return out;
+std::unique_ptr<SortRunner> runnerOf(const SortTime& time, int side, const BenchDevice& device,
+                                     const KeyPairs& input) {
+    if (time.method) return std::make_unique<DeviceSort>(device, *time.method, time.rowsOnly, side, input);
+    if (time.copy) return std::make_unique<PairCopy>(device, input);
+    return std::make_unique<StdSort>(input);
 }
+
+class SortEntrant {
+  public:
+    SortEntrant(SortTime& time, int side, const BenchDevice& device, const KeyPairs& input)
+        : time_(time),
+          runner_(runnerOf(time, side, device, input)),
+          ownTimes_(device.ownTimes && (time.method || time.copy)) {
+        time.passes = runner_->passes;
+    }
+    void warmUp() {
+        runner_->run();
+        if (!runner_->isSorted()) throw Error(concat("bench sort: ", time_.name, " did not sort"));
+        seconds = measure::secondsOf([&] {
+            runner_->restart();
+            runner_->run();
+            runner_->finish();
+        });
+    }
+    void visit() {
+        runner_->restart();
+        samples_.push_back(measure::secondsOf([&] {
+            runner_->run();
+            runner_->finish();
+        }));
+        if (!ownTimes_) return;
+        runner_->restart();
+        device_.push_back(timer_.secondsOf([&] { runner_->run(); }));
+    }
+    void finish() {
+        time_.seconds = measure::spreadOf(std::move(samples_));
+        time_.device = measure::spreadOf(std::move(device_));
+    }
+
+    double seconds = 0;  // of a visit
+
+  private:
+    SortTime& time_;
+    std::unique_ptr<SortRunner> runner_;
+    bool ownTimes_;
+    gpu::DeviceTimer timer_;
+    std::vector<double> samples_, device_;
+};
 
 }  // namespace
 
@@ -165,7 +178,7 @@ const SortTime* SortTable::find(SortMethod method, bool rowsOnly) const {
 }
 
 std::optional<double> SortTable::shareOfCopy(const SortTime& time) const {
-    if (time.method != SortMethod::radix || !time.leftOut.empty()) return {};
+    if (time.method != SortMethod::radix || !time.leftOut.empty() || !copy().leftOut.empty()) return {};
     return time.passes * copy().seconds.min / time.seconds.min;
 }
 
@@ -179,26 +192,10 @@ std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask) {
 
 SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule) {
     const KeyPairs input = randomKeys(size_t(side) * size_t(side));
-    std::vector<Running> all = runnersOf(side, device, input);
-    gpu::DeviceTimer timer;
-    measure::takeTurns(measure::planVisits(costs(all), schedule), [&](size_t i) {
-        if (!all[i].runner) return;
-        all[i].runner->restart();
-        all[i].seconds.push_back(measure::secondsOf([&] {
-            all[i].runner->run();
-            all[i].runner->finish();
-        }));
-        if (!device.ownTimes || all[i].time.name.starts_with("std::sort")) return;
-        all[i].runner->restart();
-        all[i].device.push_back(timer.secondsOf([&] { all[i].runner->run(); }));
-    });
-    SortTable out;
-    out.side = side;
-    for (Running& one : all) {
-        one.time.seconds = measure::spreadOf(std::move(one.seconds));
-        one.time.device = measure::spreadOf(std::move(one.device));
-        out.times.push_back(std::move(one.time));
-    }
+    SortTable out{side, sortsOf(side, device.context->info())};
+    measureInTurn(
+        out.times, schedule, [](double) {},
+        [&](SortTime& time) { return std::make_unique<SortEntrant>(time, side, device, input); });
     return out;
 }
 

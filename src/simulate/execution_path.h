@@ -31,8 +31,8 @@ struct SimulationOptions {
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     gpu::ProgramCache* cache = nullptr;
     bool watchdog = true;  // simulate/watchdog.h
-    // Fused, for tests: kernels and contact take the form that suits a GPU, or a CPU rasteriser, whatever the
-    // context is; both give the same bits. As on a GPU, what ran away is noticed as late as it may be.
+    // Fused, for tests: contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context
+    // is; both give the same bits. And as on a GPU what ran away is noticed late, as late as it may be.
     std::optional<bool> asOnGpu = std::nullopt;
     // Fused, for tests: a dispatch takes at most so many molecules or newborns, as on a device of small
     // blocks; 0: as many as this one takes.

@@ -30,7 +30,9 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     : plan_(&plan), drawn_(options.drawn) {
     const gpu::ContextInfo& info = context.info();
     const KernelSource source{&context, shaderRoot, &plan, &tables, options.cache};
-    const bool onGpu = options.asOnGpu.value_or(!info.software);
+    // with contact, births and schools other passes change the state as well
+    const bool ahead = options.watchdog && options.asOnGpu.value_or(!info.software) && info.atLeast(4, 4) &&
+                       !plan.contact.any() && !plan.hasLife() && !plan.school.any();
     std::vector<int> together;
     const auto atMost = [&](size_t most) {
         return options.largestPart > 0 ? std::min(most, options.largestPart) : most;
@@ -43,8 +45,9 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         // contact still moves what a dispatch leaves, and newborns come after it
         kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
         kernel.groupVote = info.groupVote;
-        kernel.software = !onGpu;
+        kernel.software = info.software;
         kernel.watch = options.watchdog;
+        kernel.ahead = ahead;
         if (info.software && group.needs.collide)
             mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
         together.push_back(workgroupMolecules(group, kernel));
@@ -64,9 +67,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
         school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
-    // beside the kernels of the step other passes change the state
     using Reading = RunawayWord::Reading;
-    const bool ahead = onGpu && info.atLeast(4, 4) && !births_ && !contact_ && !school_;
     if (options.watchdog)
         alarm_.emplace(context, !ahead                        ? Reading::waits
                                 : options.asOnGpu.has_value() ? Reading::late

@@ -68,6 +68,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.fragments)) {
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
+        define(options.ahead, "ISSUED_AHEAD");
     }
     const ContactGroup* contact = plan.contact.of(size_t(&group - plan.groups.data()));
     const bool remembers = options.work == Work::frame && contact && plan.contact.remembers();

@@ -33,6 +33,8 @@ struct KernelOptions {
     bool groupVote = false;                         // ContextInfo::groupVote
     bool software = false;                          // what suits a CPU rasteriser
     bool watch = false;                             // a frame looks for states that run away
+    bool ahead =
+        false;  // frames are issued before it is known whether one ran away; they change nothing then
 };
 
 // Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where

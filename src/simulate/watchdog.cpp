@@ -106,7 +106,7 @@ RunawayWord::RunawayWord(gpu::Context& context, Reading reading)
     glBufferStorage(GL_COPY_WRITE_BUFFER, sizeof none, none, mapped | GL_CLIENT_STORAGE_BIT);
     copy_ =
         static_cast<const volatile uint32_t*>(glMapBufferRange(GL_COPY_WRITE_BUFFER, 0, sizeof none, mapped));
-    if (copy_ == nullptr) reading_ = Reading::waits;
+    context.checkErrors("the watchdog");
 }
 
 void RunawayWord::endFrame(int number) {
@@ -139,7 +139,7 @@ std::optional<int> RunawayWord::framesSince(bool waits) {
     else if (raised_ == 0)
         raised_ = seen();
     if (raised_ == 0) return {};
-    return last_ + 1 - int(raised_);
+    return reading_ == Reading::waits ? 0 : last_ + 1 - int(raised_);
 }
 
 void RunawayWord::disarm() {

@@ -4,19 +4,13 @@
 
 #include "cli/shoal_command.h"
 #include "support/catch.h"
+#include "support/replaced.h"
 #include "support/small_scene.h"
 
 using namespace shoal;
 using namespace shoal::test;
 
 namespace {
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const size_t at = text.find(from);
-    INFO(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
 
 // "line:column" of a piece of text.
 std::string placeOf(const std::string& text, const std::string& part) {

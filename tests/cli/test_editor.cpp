@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "molecule/molecule_file.h"
 #include "support/catch.h"
+#include "support/replaced.h"
 #include "support/scratch.h"
 
 using namespace shoal;
@@ -43,12 +44,6 @@ struct Session {
     std::string text() const { return readFile(file); }
     Molecule molecule() const { return readMolecule(file); }
 };
-
-std::string replaced(std::string in, const std::string& part, const std::string& with) {
-    const size_t at = in.find(part);
-    REQUIRE(at != std::string::npos);
-    return in.replace(at, part.size(), with);
-}
 
 }  // namespace
 

@@ -191,7 +191,7 @@ TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
     refuses({scratch.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")}, "has no triangles");
     refuses({open, "--springs", "lattice"}, "this mesh has none: 4 border edges");
     refuses({open, "--springs", "latice"}, "did you mean \"lattice\"");
-    refuses({open, "--vertices", "1000"}, "larger than the fused path holds: at most 227");
+    refuses({open, "--vertices", "1000"}, "takes too long to make: at most 227");
     refuses({open, "--vertices", "many"}, "expected a whole number");
     refuses({open, "--vertices", "-4"}, "expected at least 4 vertices, found -4");
     refuses({open, "--size", "0"}, "expected a size above 0");

@@ -3,6 +3,7 @@
 #include "cli/window_user.h"
 #include "core/file.h"
 #include "support/catch.h"
+#include "support/replaced.h"
 #include "support/scratch.h"
 #include "support/small_scene.h"
 
@@ -10,12 +11,6 @@ using namespace shoal;
 using namespace shoal::test;
 
 namespace {
-
-std::string replaced(std::string text, const std::string& part, const std::string& with) {
-    const size_t at = text.find(part);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, part.size(), with);
-}
 
 constexpr const char* blades = R"({
   "format": "shoal-scene-1", "name": "blades", "gravity": [0, -9.81, 0],

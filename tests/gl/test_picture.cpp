@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "render/picture.h"
 #include "support/catch.h"
+#include "support/message_of.h"
 #include "support/scratch.h"
 
 using namespace shoal;
@@ -31,15 +32,6 @@ class Path {
 void writeScript(const Scratch& scratch, const std::string& text) {
     const std::string file = scratch.write("bin/ffmpeg", "#!/bin/sh\n" + text);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
 }
 
 size_t filesIn(const std::string& folder) {

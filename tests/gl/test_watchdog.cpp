@@ -148,6 +148,31 @@ TEST_CASE("a vertex above the limit is noticed, one below is not", "[watchdog]")
     }
 }
 
+TEST_CASE("what runs away in a frame of several contact steps is noticed, and stays", "[watchdog]") {
+    if (!canFuse()) return;
+    Scene scene = swarm(shippedMolecule("quad"), 100, SolverKind::leapfrog, {0, 50, 0});
+    scene.groups[0].contact.emplace().radius = 0.001;
+    setStableSubsteps(scene);
+    const Plan plan = compile(scene);
+    REQUIRE(plan.contact.steps > 1);
+    for (const bool asOnGpu : {false, true}) {
+        CAPTURE(asOnGpu);
+        Simulation simulation = make(plan, {.path = Path::fused, .asOnGpu = asOnGpu});
+        REQUIRE_FALSE(alarmOf(simulation, 2));
+        SavedState spoiled = simulation.save();
+        for (size_t v = 0; v < 4; ++v)
+            spoiled.groups[0].velocities[4 * 70 + v] = {0, 2e4f, 0};
+        simulation.load(spoiled);
+        simulation.frame();
+        CHECK_THROWS_AS(simulation.frame(), Runaway);
+        CHECK(simulation.frames() == 3);
+        const std::optional<Alarm> alarm = alarmOf(simulation, 0);
+        REQUIRE(alarm);
+        CHECK(alarm->molecule == 70);
+        CHECK(alarm->speed > 1e4);
+    }
+}
+
 TEST_CASE("the message says who, when and what may help", "[watchdog]") {
     const Plan plan = manyQuads(100);
     Simulation simulation = make(plan, {.path = testPath()});

@@ -6,6 +6,7 @@
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "support/catch.h"
+#include "support/replaced.h"
 
 using namespace shoal;
 
@@ -33,12 +34,6 @@ constexpr const char* squareText = R"({
 
 Draft opened() {
     return Draft(parseMolecule(squareText, "square.json"));
-}
-
-std::string replaced(std::string in, const std::string& part, const std::string& with) {
-    const size_t at = in.find(part);
-    REQUIRE(at != std::string::npos);
-    return in.replace(at, part.size(), with);
 }
 
 }  // namespace

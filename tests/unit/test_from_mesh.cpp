@@ -342,7 +342,7 @@ TEST_CASE("what makes no molecule is refused with its reason", "[from-mesh]") {
         change(options);
         return refused(mesh, options);
     };
-    CHECK(with([](FromMesh& o) { o.vertices = 500; }).find("the fused path holds: at most 227") !=
+    CHECK(with([](FromMesh& o) { o.vertices = 500; }).find("takes too long to make: at most 227") !=
           std::string::npos);
     CHECK(with([](FromMesh& o) { o.rings = 57; }).find("at most 227, which are 56 rings") !=
           std::string::npos);

@@ -11,6 +11,7 @@
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
+#include "support/replaced.h"
 #include "support/small_scene.h"
 
 using namespace shoal;
@@ -182,12 +183,6 @@ bool same(const Lifecycle& a, const Lifecycle& b) {
            a.shrink == b.shrink && a.spin == b.spin &&
            std::equal(a.emitters.begin(), a.emitters.end(), b.emitters.begin(), b.emitters.end(),
                       [](const Emitter& x, const Emitter& y) { return same(x, y); });
-}
-
-std::string replaced(std::string text, const std::string& part, const std::string& with) {
-    const size_t at = text.find(part);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, part.size(), with);
 }
 
 }  // namespace

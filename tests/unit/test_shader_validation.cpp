@@ -426,7 +426,7 @@ TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
                     options.groupVote = (bits & 1) != 0;
                     options.software = (bits & 2) != 0;
                     options.normals = (bits & 4) != 0;
-                    options.watch = options.normals;
+                    options.watch = options.ahead = options.normals;
                     validator.addKernel(plan, options);
                     options.work =
                         options.normals ? KernelOptions::Work::normals : KernelOptions::Work::frame;
