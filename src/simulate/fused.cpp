@@ -33,6 +33,11 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     // with contact, births and schools other passes change the state as well
     const bool ahead = options.watchdog && options.asOnGpu.value_or(!info.software) && info.atLeast(4, 4) &&
                        !plan.contact.any() && !plan.hasLife() && !plan.school.any();
+    using Reading = RunawayWord::Reading;
+    if (options.watchdog)
+        alarm_.emplace(context, !ahead                        ? Reading::waits
+                                : options.asOnGpu.has_value() ? Reading::late
+                                                              : Reading::ahead);
     std::vector<int> together;
     const auto atMost = [&](size_t most) {
         return options.largestPart > 0 ? std::min(most, options.largestPart) : most;
@@ -67,11 +72,6 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
         school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
-    using Reading = RunawayWord::Reading;
-    if (options.watchdog)
-        alarm_.emplace(context, !ahead                        ? Reading::waits
-                                : options.asOnGpu.has_value() ? Reading::late
-                                                              : Reading::ahead);
 }
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part,
