@@ -214,7 +214,7 @@ struct SchoolTimes {
     double perFish() const { return frame.min / one.count; }  // s
 };
 
-// What the device has no memory for is left out. Error: the driver refuses a shader.
+// A case that the device has no memory for is left out. Error: the driver refuses a shader.
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
                                         const BenchDevice& device, const measure::Schedule& schedule);
 

@@ -47,7 +47,8 @@ struct SortTable {
 // Keys of all bits of the mask, with their indices; the same every time.
 std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask = ~0u);
 
-// What the device has no memory for is left out. Error: a sort did not sort; the driver refuses a shader.
+// A sort that the device has no memory for is left out. Error: a sort did not sort; the driver refuses a
+// shader.
 SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule);
 // The speed of a sort as others published it.
 struct PublishedSort {

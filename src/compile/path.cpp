@@ -29,7 +29,7 @@ void checkTextures(const Plan& plan, const PathLimits& limits) {
     }
 }
 
-// What fragments and passes read from textures.
+// Fragments and passes read these tables from textures.
 void checkTables(const Plan& plan, const PathLimits& limits) {
     const auto check = [&](int rows, const char* what) {
         if (rows > limits.maxTextureSize)

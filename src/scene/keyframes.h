@@ -1,4 +1,4 @@
-// What paths along keyframes have in common: at least two, whose times rise.
+// Paths along keyframes: there are at least two, whose times rise.
 #pragma once
 
 #include <algorithm>

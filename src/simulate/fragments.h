@@ -44,7 +44,7 @@ class Fragments : public ExecutionPath {
     bool changeLife(size_t group, const Lifecycle& life) override;
     LifeCounts lifeCounts(size_t group) const override { return births_->counts(group, state[group]); }
     std::optional<int> framesSinceAlarm(bool) override {
-        return query_ && query_->raised() ? std::optional<int>(0) : std::nullopt;
+        return query_ ? query_->framesSince() : std::nullopt;
     }
     void disarm() override;
     const ContactResult* contact() const override { return contact_.get(); }

@@ -42,7 +42,7 @@ class PingPong : public ExecutionPath {
         return state.readNormals(plan_->groups[group]);
     }
     std::optional<int> framesSinceAlarm(bool) override {
-        return query_ && query_->raised() ? std::optional<int>(0) : std::nullopt;
+        return query_ ? query_->framesSince() : std::nullopt;
     }
     void disarm() override {
         if (query_) query_->disarm();

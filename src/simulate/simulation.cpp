@@ -120,16 +120,16 @@ void Simulation::frame() {
     if (forcesJump()) lastStep_ = 0;
     const double before = lastStep_;
     lastStep_ = parameters.frameTime / parameters.substeps;
-    const Frame next{time_,      time_ + parameters.frameTime, lastStep_, frames_,
-                     parameters, lastStep_ != before};
+    issued_.push_back(
+        {{time_, time_ + parameters.frameTime, lastStep_, frames_, parameters, lastStep_ != before}, before});
+    if (issued_.size() > RunawayWord::mostBehind + 1) issued_.pop_front();
+    const Frame& next = issued_.back().frame;
     {
         const gpu::TimedFrame timed(timers_);
         path_->step(next, timers_);
     }
     time_ = next.end;
     ++frames_;
-    issued_.push_back({next, before});
-    if (issued_.size() > RunawayWord::mostBehind + 1) issued_.pop_front();
 }
 
 void Simulation::check() {

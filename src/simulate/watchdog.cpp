@@ -86,12 +86,13 @@ RunawayQuery::Asking::~Asking() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-bool RunawayQuery::raised() const {
-    if (!asked_) return false;
+std::optional<int> RunawayQuery::framesSince() const {
+    if (!asked_) return {};
     GLuint raised = GL_FALSE;
     glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &raised);
     traffic_->countReadBack(gpu::Traffic::Kind::control, sizeof raised);
-    return raised != GL_FALSE;
+    if (raised == GL_FALSE) return {};
+    return 0;
 }
 
 RunawayWord::RunawayWord(gpu::Context& context, Reading reading)

@@ -71,7 +71,8 @@ class RunawayQuery {
         Asking& operator=(const Asking&) = delete;
         ~Asking();
     };
-    bool raised() const;  // waits for the answer, 4 bytes
+    // 0: the last frame left a state that ran away. Waits for the answer, 4 bytes.
+    std::optional<int> framesSince() const;
     void disarm() { asked_ = false; }
 
   private:
