@@ -45,8 +45,7 @@ int explainCommand(const Options& options) {
         KernelOptions kernel;
         kernel.watch = true;
         if (choice.path == Path::fragments) {
-            const int stored = int(storedInFragments(loaded.plan.groups[g]).size());
-            kernel.fragments = {0, std::min(stored, limits.targets)};
+            kernel.targets = limits.targets;
         } else {
             kernel.lanes = chooseLanes(loaded.plan, loaded.plan.groups[g], options.lanes, limits);
             kernel.normals = true;

@@ -61,11 +61,11 @@ void BirthPasses::makeOrder() {
 }
 
 const Program& BirthPasses::makeSpawn(gpu::Context& context, const std::string& shaderRoot,
-                                      const Living& living, std::optional<KernelOptions::Targets> draw,
+                                      const Living& living, std::optional<int> targets,
                                       gpu::ProgramCache* cache) {
     KernelOptions kernel;
     kernel.work = KernelOptions::Work::births;
-    kernel.fragments = draw;
+    kernel.targets = targets;
     kernel.software = context.info().software;
     gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
     program.cache = cache;

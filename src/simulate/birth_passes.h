@@ -70,10 +70,9 @@ class BirthPasses {
     BirthPasses(const Plan& plan, size_t apart);
     ~BirthPasses() = default;
 
-    // Returns the program of a group's births, or in fragments of one draw of them. Error: the driver refuses
-    // it.
+    // Returns the program of a group's births; `targets`: as of KernelOptions. Error: the driver refuses it.
     const gpu::Program& makeSpawn(gpu::Context& context, const std::string& shaderRoot, const Living& living,
-                                  std::optional<KernelOptions::Targets> draw, gpu::ProgramCache* cache);
+                                  std::optional<int> targets, gpu::ProgramCache* cache);
 
     // All that is scheduled between the ends of the frame, with places from the allocators on the CPU.
     Newborns schedule(Living& living, const Frame& frame);

@@ -7,12 +7,6 @@
 namespace shoal {
 
 using gpu::Program;
-using Targets = KernelOptions::Targets;
-
-// The 4-vectors that a frame writes of a molecule.
-static size_t storedByStep(const GroupPlan& group) {
-    return group.isStill() ? 0 : storedInFragments(group).size();
-}
 
 // How contact reads the layers, a texel a molecule, and changes them.
 class Fragments::Touched : public ContactState {
@@ -32,15 +26,13 @@ class Fragments::Touched : public ContactState {
     }
     void apply(size_t group, const Gains& gains) override {
         GroupLayers& layers = path_->state[group];
-        const Programs& programs = path_->programs_[group];
-        for (size_t i = 0; i < programs.touched.size(); ++i) {
-            const Program& program = *programs.touched[i];
-            program.use();
-            program.set("groupMolecules", path_->plan_->groups[group].count);
-            gains(program, kernel_unit::steering + 1);
-            path_->draw(program, group, layers.newState()[i], layers.count());
-        }
-        if (!programs.touched.empty()) layers.flip();
+        if (path_->programs_[group].touched == nullptr) return;
+        const Program& program = *path_->programs_[group].touched;
+        program.use();
+        program.set("groupMolecules", path_->plan_->groups[group].count);
+        gains(program, kernel_unit::steering + 1);
+        path_->draw(program, group, layers.newState(), layers.count());
+        layers.flip();
     }
 
   private:
@@ -54,6 +46,7 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
     const int targets = context.info().maxColorAttachments;
     if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
     KernelOptions kernel;
+    kernel.targets = targets;
     kernel.software = context.info().software;
     kernel.groupVote = context.info().groupVote;
     for (size_t g = 0; g < plan.groups.size(); ++g) {
@@ -62,20 +55,13 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         if (kernel.software && group.needs.collide)
             mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
         Programs& programs = programs_.emplace_back();
-        const std::vector<Targets> draws = drawsOf(storedByStep(group), targets);
-        programs.kernel = std::make_unique<GroupKernel>(
-            source, g, kernel, GroupKernel::Steps(draws.begin(), draws.end()), made_);
-        if (query_ && !group.isStill())
-            programs.watch = &programs.kernel->also(KernelOptions::Work::watch, Targets{});
-        if (!state[g].hasNormals()) continue;
-        for (const Targets& draw : drawsOf(group.kernel.normals.size(), targets))
-            programs.normals.push_back(&programs.kernel->also(KernelOptions::Work::normals, draw));
-    }
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        Programs& programs = programs_[contact.group];
-        for (const Targets& draw : drawsOf(storedByStep(group), targets))
-            programs.touched.push_back(&programs.kernel->also(KernelOptions::Work::touched, draw));
+        programs.kernel = std::make_unique<GroupKernel>(source, g, kernel, !group.isStill(), made_);
+        const auto also = [&](bool need, KernelOptions::Work work) {
+            return need ? &programs.kernel->also(work) : nullptr;
+        };
+        programs.watch = also(query_ && !group.isStill(), KernelOptions::Work::watch);
+        programs.normals = also(state[g].hasNormals(), KernelOptions::Work::normals);
+        programs.touched = also(plan.contact.of(g) && !group.isStill(), KernelOptions::Work::touched);
     }
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
@@ -88,7 +74,7 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         births_ = std::make_unique<TextureBirths>(context, shaderRoot, plan, tables, targets, options.cache);
 }
 
-void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target, int molecules,
+void Fragments::draw(const Program& program, size_t group, std::span<const LayerDraw> draws, int molecules,
                      int vertices) const {
     if (molecules == 0) return;
     const GroupLayers& layers = state[group];
@@ -96,9 +82,12 @@ void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffe
     program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
     if (layers.hasConstants()) program.texture("constants", kernel_unit::constants, layers.constants());
     programs_[group].kernel->bindTables(program);
-    target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
     noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, vertices);
+    for (const LayerDraw& draw : draws) {
+        if (program.uses("firstStored")) program.set("firstStored", draw.first);
+        draw.target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
+        glDrawArrays(GL_TRIANGLES, 0, vertices);
+    }
 }
 
 void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
@@ -107,18 +96,17 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
     for (size_t g = 0; g < state.size(); ++g) {
         GroupKernel& kernel = *programs_[g].kernel;
         const bool lives = births_ && births_->has(g);
+        if (!kernel.moves()) continue;
         kernel.update(frame);
-        for (size_t i = 0; i < kernel.steps(); ++i) {
-            const Program& program = kernel.useStep(frame, i);
-            if (plan_->groups[g].needs.steers) {
-                program.texture("steering", kernel_unit::steering, state[g].steering());
-                program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
-            }
-            if (contact_) contact_->bindLoads(program, kernel_unit::loads, g);
-            const int vertices = lives ? births_->bindStep(program, g) : 3;
-            draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count(), vertices);
+        const Program& program = kernel.useStep(frame);
+        if (plan_->groups[g].needs.steers) {
+            program.texture("steering", kernel_unit::steering, state[g].steering());
+            program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
         }
-        if (kernel.steps() > 0) state[g].flip();
+        if (contact_) contact_->bindLoads(program, kernel_unit::loads, g);
+        const int vertices = lives ? births_->bindStep(program, g) : 3;
+        draw(program, g, state[g].newState(), lives ? births_->reach(g) : state[g].count(), vertices);
+        state[g].flip();
     }
 }
 
@@ -139,11 +127,11 @@ void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
 void Fragments::computeNormals(gpu::PassTimers& timers) {
     const auto timer = timers.time("normals");
     gpu::drawPlainly();
-    for (size_t g = 0; g < state.size(); ++g)
-        for (size_t i = 0; i < programs_[g].normals.size(); ++i) {
-            programs_[g].normals[i]->use();
-            draw(*programs_[g].normals[i], g, state[g].newNormals()[i], state[g].count());
-        }
+    for (size_t g = 0; g < state.size(); ++g) {
+        if (programs_[g].normals == nullptr) continue;
+        programs_[g].normals->use();
+        draw(*programs_[g].normals, g, state[g].newNormals(), state[g].count());
+    }
 }
 
 // Nothing is drawn: the target is the side that is not read, with its colours masked.
@@ -153,7 +141,7 @@ void Fragments::watch(gpu::PassTimers& timers) {
     for (size_t g = 0; g < state.size(); ++g) {
         if (programs_[g].watch == nullptr) continue;
         programs_[g].watch->use();
-        draw(*programs_[g].watch, g, state[g].newState().front(), state[g].count());
+        draw(*programs_[g].watch, g, std::span(state[g].newState()).first(1), state[g].count());
     }
 }
 

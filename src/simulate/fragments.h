@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -58,14 +59,15 @@ class Fragments : public ExecutionPath {
   private:
     struct Programs {
         std::unique_ptr<GroupKernel> kernel;
-        std::vector<const gpu::Program*> normals;  // for each draw; none: nothing is drawn, or has no surface
-        const gpu::Program* watch = nullptr;       // where watched
-        std::vector<const gpu::Program*> touched;  // for each draw, where there is contact
+        const gpu::Program* normals = nullptr;  // where something is drawn and has a surface
+        const gpu::Program* watch = nullptr;    // where watched
+        const gpu::Program* touched = nullptr;  // where there is contact
     };
     class Touched;
     void run(const Frame& frame, gpu::PassTimers& timers);
-    // Draws the rows of so many molecules, as one triangle or what the vertex shader makes of more vertices.
-    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target, int molecules,
+    // Draws the rows of so many molecules, as one triangle or what the vertex shader makes of more vertices,
+    // with a program that is in use.
+    void draw(const gpu::Program& program, size_t group, std::span<const LayerDraw> draws, int molecules,
               int vertices = 3) const;
     void watch(gpu::PassTimers& timers);
 

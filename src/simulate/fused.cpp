@@ -58,8 +58,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         together.push_back(workgroupMolecules(group, kernel));
         state.emplace_back(context, group, options.drawn, options.inPlace,
                            atMost(size_t(info.maxWorkGroupsX) * size_t(together.back())));
-        kernels_.push_back(
-            std::make_unique<GroupKernel>(source, g, kernel, GroupKernel::Steps{std::nullopt}, programs_));
+        kernels_.push_back(std::make_unique<GroupKernel>(source, g, kernel, true, programs_));
         normals_.push_back(options.drawn && group.needs.normals
                                ? &kernels_.back()->also(KernelOptions::Work::normals)
                                : nullptr);

@@ -42,10 +42,10 @@ bool writesNormals(const GroupPlan& group, const KernelOptions& options) {
 
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
-    std::vector<std::string> out = group.layout().defines(options.fragments.has_value());
+    std::vector<std::string> out = group.layout().defines(options.targets.has_value());
     const bool births = options.work == Work::births;
     const bool perLane = options.lanes == Lanes::molecule;
-    if (!options.fragments)
+    if (!options.targets)
         out.push_back(concat("LANES ", births ? birthLanes : workgroupMolecules(group, options)));
     if (perLane) {
         out.push_back(concat("VERTICES ", group.vertexCount));
@@ -65,7 +65,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
            "MAY_BE_CUT");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(writesNormals(group, options), "NORMALS");
-    if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.fragments)) {
+    if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.targets)) {
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
         define(options.ahead, "ISSUED_AHEAD");
@@ -76,9 +76,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         EXPECTS(contact);
         out.push_back(concat("SPHERES ", contact->spheresOf));
         define(remembers, "REMEMBERS");
-        define(remembers && !options.fragments && plan.contact.mayRest(group), "RESTING");
-        if (options.fragments)
-            out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
+        define(remembers && !options.targets && plan.contact.mayRest(group), "RESTING");
+        if (options.targets) out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
     }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");
@@ -166,48 +165,74 @@ std::string storeToBuffer(const std::vector<std::string>& values, const char* fu
     return out + "}\n";
 }
 
-// A function that writes some of the values to colour targets, and these.
-std::string storeToTargets(const std::vector<std::string>& values, const char* function,
-                           const KernelOptions::Targets& targets) {
-    std::string out = "\n", body;
-    for (int t = 0; t < targets.count; ++t) {
+// Declares so many of them, each by its number.
+std::string declareTargets(int count) {
+    std::string out = "\n";
+    for (int t = 0; t < count; ++t)
         out += concat("layout(location = ", t, ") out vec4 target", t, ";\n");
-        body += concat("    target", t, " = ", values[size_t(targets.first + t)], ";\n");
-    }
-    return concat(out, "\nvoid ", function, "(int molecule)\n{\n", body, "}\n");
+    return out;
 }
 
-// A function that writes some of the values to what a vertex hands to the fragment that stores them.
-std::string storeFromVertex(const std::vector<std::string>& values, const KernelOptions::Targets& targets) {
-    std::string out = "\n", body;
-    for (int t = 0; t < targets.count; ++t) {
-        out += concat("flat out vec4 born", t, ";\n");
-        body += concat("    born", t, " = ", values[size_t(targets.first + t)], ";\n");
+// What a vertex hands to the fragment that stores it; `way`: out of the one, into the other.
+std::string declareHanded(const char* way, int count) {
+    std::string out = "\n";
+    for (int t = 0; t < count; ++t)
+        out += concat("flat ", way, " vec4 handed", t, ";\n");
+    return out;
+}
+
+// A function that writes those of the values that this draw stores to variables of a name and a number.
+std::string storeOfDraw(const std::vector<std::string>& values, const char* function, int targets,
+                        const char* name) {
+    std::string out = concat("\nuniform int firstStored;\n\nvoid ", function, "(int molecule)\n{\n");
+    for (const int first : drawsOf(values.size(), targets)) {
+        out += concat("    if (firstStored == ", first, ") {\n");
+        for (int t = 0; t < targets; ++t)
+            out += concat("        ", name, t, " = ", values[size_t(first + t)], ";\n");
+        out += "    }\n";
     }
-    return concat(out, "\nvoid storeState(int molecule)\n{\n", body, "}\n");
+    return out + "}\n";
 }
 
 // The fragment: what it is handed, into the targets.
-std::string newbornText(const KernelOptions::Targets& targets) {
-    std::string out = "// Stores what a vertex has made of a newborn (particles/spawn.glsl).\n", body;
-    for (int t = 0; t < targets.count; ++t) {
-        out += concat("flat in vec4 born", t, ";\nlayout(location = ", t, ") out vec4 target", t, ";\n");
-        body += concat("    target", t, " = born", t, ";\n");
-    }
-    return concat(out, "\nvoid main()\n{\n", body, "}\n");
+std::string newbornText(int targets) {
+    std::string out = "// Stores what a vertex has made of a newborn (particles/spawn.glsl).\n";
+    out += declareHanded("in", targets) + declareTargets(targets) + "\nvoid main()\n{\n";
+    for (int t = 0; t < targets; ++t)
+        out += concat("    target", t, " = handed", t, ";\n");
+    return out + "}\n";
+}
+
+// The GLSL of what draws store of a molecule, a 4-vector each, in the order of the layers
+// (simulate/layer_state.h).
+std::vector<std::string> storedByDraws(const GroupPlan& group, Work work) {
+    if (work == Work::normals) return group.kernel.normals;
+    std::vector<std::string> out = group.kernel.state;
+    if (group.needs.records) out.emplace_back("recordNow()");
+    if (work == Work::births && (group.needs.scale || group.needs.phase)) out.emplace_back("constantsNow()");
+    return out;
+}
+
+int targetsOf(const std::vector<std::string>& values, const KernelOptions& options) {
+    return std::min(*options.targets, int(values.size()));
+}
+
+// How a fragment, or a vertex that makes a newborn, loads and stores its molecule.
+std::string packingOfDraw(const GroupPlan& group, const KernelOptions& options) {
+    const std::string& load = group.kernel.load;
+    if (options.work == Work::watch) return load;
+    const std::vector<std::string> values = storedByDraws(group, options.work);
+    const int targets = targetsOf(values, options);
+    if (options.work == Work::births)
+        return load + declareHanded("out", targets) + storeOfDraw(values, "storeState", targets, "handed");
+    const char* function = options.work == Work::normals ? "storeNormals" : "storeState";
+    return load + declareTargets(targets) + storeOfDraw(values, function, targets, "target");
 }
 
 // How a lane loads and stores its molecule.
 std::string packingText(const GroupPlan& group, const KernelOptions& options) {
+    if (options.targets) return packingOfDraw(group, options);
     const KernelText& kernel = group.kernel;
-    if (options.fragments && options.work == Work::births)
-        return kernel.load + storeFromVertex(storedAtBirth(group), *options.fragments);
-    if (options.fragments && options.work == Work::watch) return kernel.load;
-    if (options.fragments)
-        return kernel.load +
-               (options.work == Work::normals
-                    ? storeToTargets(kernel.normals, "storeNormals", *options.fragments)
-                    : storeToTargets(storedInFragments(group), "storeState", *options.fragments));
     std::string out = kernel.load + storeToBuffer(kernel.state, "storeState", "STATE_ELEMENTS", "newState");
     if (writesNormals(group, options))
         out += storeToBuffer(kernel.normals, "storeNormals", "POSITION_ELEMENTS", "newNormals");
@@ -238,7 +263,7 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
 }
 
 const char* rootFile(const KernelOptions& options) {
-    if (!options.fragments) return "generated/fused.comp";
+    if (!options.targets) return "generated/fused.comp";
     return options.work == Work::births ? "generated/births.vert" : "generated/fused.frag";
 }
 
@@ -250,22 +275,10 @@ bool reachesByControl(const GroupPlan& group, const KernelOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> storedInFragments(const GroupPlan& group) {
-    std::vector<std::string> out = group.kernel.state;
-    if (group.needs.records) out.emplace_back("recordNow()");
-    return out;
-}
-
-std::vector<std::string> storedAtBirth(const GroupPlan& group) {
-    std::vector<std::string> out = storedInFragments(group);
-    if (group.needs.scale || group.needs.phase) out.emplace_back("constantsNow()");
-    return out;
-}
-
-std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets) {
-    std::vector<KernelOptions::Targets> out;
+std::vector<int> drawsOf(size_t values, int targets) {
+    std::vector<int> out;
     for (int first = 0; first < int(values); first += targets)
-        out.push_back({first, std::min(targets, int(values) - first)});
+        out.push_back(std::max(0, std::min(first, int(values) - targets)));
     return out;
 }
 
@@ -285,7 +298,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     gpu::ProgramOptions out;
     const bool born = options.work == Work::births;
     const std::string root = rootFile(options);
-    if (!options.fragments)
+    if (!options.targets)
         out.compute = root;
     else if (born)
         out.vertex = root, out.fragment = "generated/newborn.frag";
@@ -305,7 +318,9 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
                      {"generated/scene_forces.glsl", group.forces.source},
                      {"generated/colliders.glsl", plan.collideSource}};
-    if (options.fragments && born) out.generated["generated/newborn.frag"] = newbornText(*options.fragments);
+    if (options.targets && born)
+        out.generated["generated/newborn.frag"] =
+            newbornText(targetsOf(storedByDraws(group, options.work), options));
     out.label = concat(born ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         expand(source, loops);
@@ -372,7 +387,7 @@ std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t
     const gpu::ProgramOptions program = kernelProgram(plan, group, options);
     gpu::ShaderSource source =
         gpu::resolveShader(shaderRoot, rootFile(options), program.defines, program.generated,
-                           options.fragments ? gpu::header330() : gpu::header430());
+                           options.targets ? gpu::header330() : gpu::header430());
     program.rewrite(source);
     return source.text;
 }

@@ -20,30 +20,25 @@ struct KernelOptions {
         touched,  // in fragments: what contact between molecules does to the state
         births,   // of newborns (shaders/particles/spawn.glsl)
     };
-    // Which of the 4-vectors that a molecule stores one draw writes, a colour target each.
-    struct Targets {
-        int first = 0, count = 0;
-    };
     Work work = Work::frame;
-    std::optional<Targets> fragments = {};  // a fragment shader (OpenGL 3.3); else a compute shader
-    std::string factors = {};               // bdf2-corotated: its matrix as constants; empty: a uniform block
-    Lanes lanes = Lanes::molecule;          // not automatic
+    // In fragments (OpenGL 3.3), the most colour targets of a draw, each of which takes one of the 4-vectors
+    // that a molecule stores; else a compute shader.
+    std::optional<int> targets = {};
+    std::string factors = {};       // bdf2-corotated: its matrix as constants; empty: a uniform block
+    Lanes lanes = Lanes::molecule;  // not automatic
     int sharedBytes = PathLimits{}.maxSharedBytes;  // of a workgroup, for a lane a vertex
     bool normals = false;                           // a frame writes them, where the shape has a surface
     bool groupVote = false;                         // ContextInfo::groupVote
     bool software = false;                          // what suits a CPU rasteriser
     bool watch = false;                             // a frame looks for states that run away
-    bool ahead =
-        false;  // frames are issued before it is known whether one ran away; they change nothing then
+    // Frames are issued before it is known whether one ran away; they change nothing then.
+    bool ahead = false;
 };
 
-// Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where
-// that changes, its record.
-std::vector<std::string> storedInFragments(const GroupPlan& group);
-// Returns the same of a newborn, and its constants.
-std::vector<std::string> storedAtBirth(const GroupPlan& group);
-// Returns the draws, of at most so many targets each, that store so many 4-vectors.
-std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets);
+// Returns the draws that store so many 4-vectors: of each, the first that it writes (uniform firstStored).
+// All write as many, so that the last may write some again: to Mesa's rasteriser another number of targets is
+// another program, which it compiles.
+std::vector<int> drawsOf(size_t values, int targets);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
 // Vertices that a lane of the step holds, at most.

@@ -20,9 +20,9 @@ std::string bytesOf(const std::vector<glm::vec4>& parameters) {
 
 }  // namespace
 
-GroupKernel::GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options,
-                         const Steps& steps, gpu::Programs& programs)
-    : source_(source), group_(group), options_(options), draws_(steps), programs_(&programs) {
+GroupKernel::GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options, bool moves,
+                         gpu::Programs& programs)
+    : source_(source), group_(group), options_(options), programs_(&programs) {
     const GroupPlan& plan = this->group();
     if (plan.factored()) {
         stage_ = corotatedStage(plan, {}, 1 / source.plan->frameRate / source.plan->substeps);
@@ -31,7 +31,7 @@ GroupKernel::GroupKernel(const KernelSource& source, size_t group, const KernelO
     if (plan.needs.liveSprings && options.lanes == Lanes::molecule && !plan.springNumbers.empty())
         springs_ =
             gpu::Texture(*source.context, gpu::Format::rgba32f, int(plan.springNumbers.size()), 1, "springs");
-    makeSteps();
+    if (moves) makeStep();
 }
 
 const Program& GroupKernel::make(const KernelOptions& options) {
@@ -40,30 +40,22 @@ const Program& GroupKernel::make(const KernelOptions& options) {
     if (options.factors.empty())
         return programs_->get(*source_.context, source_.shaderRoot, program,
                               bytesOf(group().colliderParameters));
-    own_.push_back(std::make_unique<Program>(*source_.context, source_.shaderRoot, program));
-    return *own_.back();
+    own_ = std::make_unique<Program>(*source_.context, source_.shaderRoot, program);
+    return *own_;
 }
 
-void GroupKernel::makeSteps() {
-    own_.clear();
-    steps_.clear();
-    for (const auto& draw : draws_) {
-        KernelOptions options = options_;
-        options.fragments = draw;
-        steps_.push_back(&make(options));
-        const Program& step = *steps_.back();
-        step.use();
-        if (group().needs.fields)
-            step.set("givenFieldParameters", std::span<const glm::vec4>(source_.plan->fieldParameters));
-        if (group().needs.collide)
-            step.set("givenColliderParameters", std::span<const glm::vec4>(group().colliderParameters));
-    }
+void GroupKernel::makeStep() {
+    step_ = &make(options_);
+    step_->use();
+    if (group().needs.fields)
+        step_->set("givenFieldParameters", std::span<const glm::vec4>(source_.plan->fieldParameters));
+    if (group().needs.collide)
+        step_->set("givenColliderParameters", std::span<const glm::vec4>(group().colliderParameters));
 }
 
-const Program& GroupKernel::also(KernelOptions::Work work, std::optional<KernelOptions::Targets> targets) {
+const Program& GroupKernel::also(KernelOptions::Work work) {
     KernelOptions options = options_;
     options.work = work;
-    options.fragments = targets;
     options.factors.clear();  // for a step alone
     return make(options);
 }
@@ -89,7 +81,7 @@ void GroupKernel::updateFactors(const Frame& frame) {
     if (stage == stage_) return;
     stage_ = stage;
     makeFactors();
-    if (options_.software) makeSteps();
+    if (options_.software) makeStep();
 }
 
 // Live springs, with their muscles where they are at the start of the frame.
@@ -108,12 +100,11 @@ void GroupKernel::update(const Frame& frame) {
     updateSprings(frame);
 }
 
-const Program& GroupKernel::useStep(const Frame& frame, size_t index) const {
-    const Program& program = *steps_[index];
-    program.use();
-    setStepUniforms(program, *source_.plan, group(), frame);
-    if (factors_) program.uniformBlock("Factors", 0, factors_);
-    return program;
+const Program& GroupKernel::useStep(const Frame& frame) const {
+    step_->use();
+    setStepUniforms(*step_, *source_.plan, group(), frame);
+    if (factors_) step_->uniformBlock("Factors", 0, factors_);
+    return *step_;
 }
 
 void GroupKernel::bindTables(const Program& program) const {

@@ -33,26 +33,23 @@ struct KernelSource {
 
 class GroupKernel {
   public:
-    // `steps`: a frame is one with compute, or in fragments a draw into each of these; none: it does not
-    // move. Borrows `programs`. Error: the driver refuses a kernel.
-    using Steps = std::vector<std::optional<KernelOptions::Targets>>;
-    GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options, const Steps& steps,
+    // `moves`: there is a step. Borrows `programs`. Error: the driver refuses a kernel.
+    GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options, bool moves,
                 gpu::Programs& programs);
 
     const KernelOptions& options() const { return options_; }
-    // The number of programs that a frame takes.
-    size_t steps() const { return steps_.size(); }
+    bool moves() const { return step_ != nullptr; }
     // Brings what changes from frame to frame up to date, once a frame.
     void update(const Frame& frame);
-    // Returns a program of the step, in use, with the numbers of the frame.
-    const gpu::Program& useStep(const Frame& frame, size_t index = 0) const;
-    // Returns another program for the same group: its options with this work and these targets.
-    const gpu::Program& also(KernelOptions::Work work, std::optional<KernelOptions::Targets> targets = {});
+    // Returns the program of the step, in use, with the numbers of the frame.
+    const gpu::Program& useStep(const Frame& frame) const;
+    // Returns another program for the same group: its options with this work.
+    const gpu::Program& also(KernelOptions::Work work);
     // Binds all that a program of this group reads beside the state.
     void bindTables(const gpu::Program& program) const;
 
   private:
-    void makeSteps();
+    void makeStep();
     void makeFactors();
     void updateFactors(const Frame& frame);
     void updateSprings(const Frame& frame);
@@ -62,14 +59,12 @@ class GroupKernel {
     KernelSource source_;
     size_t group_;
     KernelOptions options_;
-    Steps draws_;
     gpu::Programs* programs_;
-    std::vector<const gpu::Program*> steps_;
-    std::vector<std::unique_ptr<gpu::Program>>
-        own_;               // the steps, where numbers that change are constants of them
-    CorotatedStage stage_;  // bdf2-corotated: of the matrix
-    gpu::Buffer factors_;   // and the matrix, where it is not part of the program
-    gpu::Texture springs_;  // where their numbers are live
+    const gpu::Program* step_ = nullptr;  // where it moves
+    std::unique_ptr<gpu::Program> own_;   // the step, where numbers that change are constants of it
+    CorotatedStage stage_;                // bdf2-corotated: of the matrix
+    gpu::Buffer factors_;                 // and the matrix, where it is not part of the program
+    gpu::Texture springs_;                // where their numbers are live
 };
 
 }  // namespace shoal

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "gpu/buffer.h"
+#include "simulate/fused_kernel.h"
 
 namespace shoal {
 
@@ -17,16 +18,13 @@ size_t paddedToRows(int count) {
     return (size_t(count) + stateWidth - 1) / stateWidth * stateWidth;
 }
 
-// Framebuffers for so many of these at once, in their order.
-std::vector<Framebuffer> framebuffersOf(gpu::Context& context, const std::vector<gpu::ColorTarget>& all,
-                                        int targets, const char* label) {
-    std::vector<Framebuffer> out;
-    for (size_t first = 0; first < all.size(); first += size_t(targets)) {
-        const size_t end = std::min(all.size(), first + size_t(targets));
-        out.emplace_back(context,
-                         std::vector<gpu::ColorTarget>(all.begin() + std::ptrdiff_t(first),
-                                                       all.begin() + std::ptrdiff_t(end)),
-                         nullptr, label);
+std::vector<LayerDraw> drawsInto(gpu::Context& context, const std::vector<gpu::ColorTarget>& all, int targets,
+                                 const char* label) {
+    std::vector<LayerDraw> out;
+    for (const int first : drawsOf(all.size(), targets)) {
+        const auto begin = all.begin() + first;
+        out.push_back(
+            {first, Framebuffer(context, {begin, std::min(begin + targets, all.end())}, nullptr, label)});
     }
     return out;
 }
@@ -66,19 +64,19 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
         std::vector<gpu::ColorTarget> all;
         addLayers(state_[1 - now], all);
         if (records_[1]) addLayers(records_[1 - now], all);
-        newState_[now] = framebuffersOf(context, all, targets, "new state");
+        newState_[now] = drawsInto(context, all, targets, "new state");
         if (!group.needs.life) continue;
         all.clear();
         addLayers(state_[now], all);
         addLayers(records_[now], all);
         if (constants_) addLayers(constants_, all);
-        newborns_[now] = framebuffersOf(context, all, targets, "newborns");
+        newborns_[now] = drawsInto(context, all, targets, "newborns");
     }
     if (!normals || !group.needs.normals) return;
     normals_ = make(Values::normals, "normals");
     std::vector<gpu::ColorTarget> all;
     addLayers(normals_, all);
-    newNormals_ = framebuffersOf(context, all, targets, "normals");
+    newNormals_ = drawsInto(context, all, targets, "normals");
 }
 
 template <typename Self>

@@ -22,6 +22,12 @@
 
 namespace shoal {
 
+// A draw into as many layers at once as there are colour targets.
+struct LayerDraw {
+    int first;  // of what it stores (drawsOf in simulate/fused_kernel.h)
+    gpu::Framebuffer target;
+};
+
 class GroupLayers : public PackedState {
   public:
     // A draw writes at most so many `targets`.
@@ -34,10 +40,10 @@ class GroupLayers : public PackedState {
     const gpu::Texture& constants() const { return constants_; }
     const gpu::Texture& normals() const { return normals_; }
     // One for each draw of a frame, into the other side; and of normals.
-    const std::vector<gpu::Framebuffer>& newState() const { return newState_[size_t(current_)]; }
-    const std::vector<gpu::Framebuffer>& newNormals() const { return newNormals_; }
+    const std::vector<LayerDraw>& newState() const { return newState_[size_t(current_)]; }
+    const std::vector<LayerDraw>& newNormals() const { return newNormals_; }
     // Where molecules are born, one for each draw of births: into the side that was written last.
-    const std::vector<gpu::Framebuffer>& newborns() const { return newborns_[size_t(current_)]; }
+    const std::vector<LayerDraw>& newborns() const { return newborns_[size_t(current_)]; }
     void flip() { current_ = 1 - current_; }
     // What steers them, where they steer; one draw writes its other side.
     const gpu::Texture& steering() const { return steering_[size_t(steeringNow_)]; }
@@ -61,8 +67,8 @@ class GroupLayers : public PackedState {
     int steeringNow_ = 0;
     std::array<gpu::Texture, 2> state_, records_, steering_;
     gpu::Texture constants_, normals_;
-    std::array<std::vector<gpu::Framebuffer>, 2> newState_, newborns_;
-    std::vector<gpu::Framebuffer> newNormals_;
+    std::array<std::vector<LayerDraw>, 2> newState_, newborns_;
+    std::vector<LayerDraw> newNormals_;
     std::array<gpu::Framebuffer, 2> newSteering_;
 };
 

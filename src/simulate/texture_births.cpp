@@ -57,8 +57,7 @@ void TextureBirths::make(const Living& living, const std::string& shaderRoot, in
         own.places = listOf(*context_, size_t(living.count()), "places");
         own.newPlaces = Framebuffer(*context_, {&own.places}, nullptr, "places");
     }
-    for (const KernelOptions::Targets& draw : drawsOf(storedAtBirth(*living.plan).size(), targets))
-        own.spawn.push_back(&makeSpawn(*context_, shaderRoot, living, draw, cache));
+    own.spawn = &makeSpawn(*context_, shaderRoot, living, targets, cache);
 }
 
 int TextureBirths::bindStep(const Program& program, size_t group) const {
@@ -129,15 +128,15 @@ void TextureBirths::spawn(Living& living, const Frame& frame, std::vector<GroupL
     GroupLayers& layers = state[living.group];
     const int most = allocate(living, newborns, layers);
     if (most == 0) return;
-    const Own& own = own_[living.group];
-    for (size_t i = 0; i < own.spawn.size(); ++i) {
-        const Program& program = *own.spawn[i];
-        program.use();
-        setNumbers(program, living, newborns, frame);
-        program.set("stateRows", layers.state().height());
-        bindBirths(program, living, state);
-        layers.newborns()[i].bind();
-        noAttributes_.bind();
+    const Program& program = *own_[living.group].spawn;
+    program.use();
+    setNumbers(program, living, newborns, frame);
+    program.set("stateRows", layers.state().height());
+    bindBirths(program, living, state);
+    noAttributes_.bind();
+    for (const LayerDraw& draw : layers.newborns()) {
+        program.set("firstStored", draw.first);
+        draw.target.bind();
         glDrawArrays(GL_POINTS, 0, most);
     }
 }

@@ -40,7 +40,7 @@ class TextureBirths : public BirthPasses {
     struct Own {
         gpu::Texture places;  // list
         gpu::Framebuffer newPlaces;
-        std::vector<const gpu::Program*> spawn;  // for each draw
+        const gpu::Program* spawn = nullptr;
     };
     void make(const Living& living, const std::string& shaderRoot, int targets, gpu::ProgramCache* cache);
     void listDeaths(const std::vector<GroupLayers>& state);

@@ -5,7 +5,60 @@
 #define CATCH_CONFIG_RUNNER
 #include "support/run_tests.h"
 
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include <execinfo.h>
+#include <unistd.h>
+
 #include "support/catch.h"
+
+namespace {
+
+#if __has_include(<catch2/catch_all.hpp>)
+using Listener = Catch::EventListenerBase;
+#else
+using Listener = Catch::TestEventListenerBase;
+#endif
+
+// A test that takes as long as this hangs, s.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr unsigned longest = 7200;
+#else
+constexpr unsigned longest = 1200;
+#endif
+
+char running[200];  // name of a test
+
+[[noreturn]] void endHanging(int) {
+    const auto print = [](const char* text) { (void)!::write(STDERR_FILENO, text, std::strlen(text)); };
+    print("\nThis test hangs: ");
+    print(running);
+    print("\nIt is here:\n");
+    void* frames[64];
+    ::backtrace_symbols_fd(frames, ::backtrace(frames, 64), STDERR_FILENO);
+    ::_exit(1);
+}
+
+// Names the test that hangs, where otherwise nothing would ever end.
+struct HangingTests : Listener {
+    using Listener::Listener;
+    void testCaseStarting(const Catch::TestCaseInfo& info) override {
+        Listener::testCaseStarting(info);
+        std::snprintf(running, sizeof running, "%s", info.name.c_str());
+        std::signal(SIGALRM, endHanging);
+        ::alarm(longest);
+    }
+    void testCaseEnded(const Catch::TestCaseStats& stats) override {
+        ::alarm(0);
+        Listener::testCaseEnded(stats);
+    }
+};
+
+CATCH_REGISTER_LISTENER(HangingTests)
+
+}  // namespace
 
 int runTests(int argumentCount, char** arguments) {
     return Catch::Session().run(argumentCount, arguments);

@@ -81,8 +81,8 @@ class Validator {
         const gpu::ProgramOptions program = kernelProgram(plan, 0, options);
         for (const std::string& file : {program.compute, program.vertex, program.fragment}) {
             if (file.empty()) continue;
-            for (const char* header : options.fragments ? std::vector{gpu::header330(), header300es}
-                                                        : std::vector{gpu::header430()}) {
+            for (const char* header : options.targets ? std::vector{gpu::header330(), header300es}
+                                                      : std::vector{gpu::header430()}) {
                 gpu::ShaderSource source =
                     gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, program.defines,
                                        program.generated, header);
@@ -91,23 +91,18 @@ class Validator {
             }
         }
     }
-    // All draws of a group's frame in fragments, its normals and its watchdog.
+    // All that is drawn of a group in fragments.
     void addFragments(const Plan& plan, KernelOptions options) {
-        const auto addDraws = [&](KernelOptions::Work work, size_t values) {
+        options.targets = 4;
+        const auto add = [&](bool need, KernelOptions::Work work) {
             options.work = work;
-            for (int first = 0; first < int(values); first += 4) {
-                options.fragments = {first, std::min(4, int(values) - first)};
-                addKernel(plan, options);
-            }
+            if (need) addKernel(plan, options);
         };
-        addDraws(KernelOptions::Work::frame, storedInFragments(plan.groups[0]).size());
-        addDraws(KernelOptions::Work::normals, plan.groups[0].kernel.normals.size());
-        if (plan.contact.any())
-            addDraws(KernelOptions::Work::touched, storedInFragments(plan.groups[0]).size());
-        if (plan.groups[0].life) addDraws(KernelOptions::Work::births, storedAtBirth(plan.groups[0]).size());
-        options.work = KernelOptions::Work::watch;
-        options.fragments.emplace();
-        addKernel(plan, options);
+        add(true, KernelOptions::Work::frame);
+        add(true, KernelOptions::Work::watch);
+        add(plan.groups[0].needs.normals, KernelOptions::Work::normals);
+        add(plan.contact.any(), KernelOptions::Work::touched);
+        add(plan.groups[0].life.has_value(), KernelOptions::Work::births);
     }
     // For each form of the state: with TEXTURES among the defines, in layers as well. What needs a buffer is
     // not for WebGL 2.
