@@ -77,7 +77,6 @@ struct CollideReport {
     MeasuredOn machine;
     double secondsAGroup = 0;
     std::vector<bench::ContactTimes> contact;
-    std::vector<bench::UberFlowTimes> uberFlow;
     std::optional<bench::SearchReport> searches;
 };
 

@@ -1,5 +1,4 @@
-// `shoal bench collide`: contact between molecules against a CPU baseline, UberFlow's experiments, and what
-// each search finds.
+// `shoal bench collide`: contact between molecules against a CPU baseline, and what each search finds.
 #include <iostream>
 
 #include "app/bench.h"
@@ -14,18 +13,15 @@ using namespace bench;
 namespace {
 
 struct CollideCases {
-    bool molecules = false, uberFlow = false, searches = false;
-    int groups(bool quick) const {
-        return int(molecules) + int(searches) + (uberFlow ? int(uberFlowSides(quick).size()) : 0);
-    }
+    bool molecules = false, searches = false;
 };
 
 CollideCases collideCasesOf(const std::string& only) {
     const auto named = [&](const std::string& name) { return name.find(only) != std::string::npos; };
-    const CollideCases out{named("molecules"), named("UberFlow"), named("searches")};
-    if (!out.molecules && !out.uberFlow && !out.searches)
+    const CollideCases out{named("molecules"), named("searches")};
+    if (!out.molecules && !out.searches)
         throw Error(concat("--only: nothing has \"", only,
-                           "\" in its name; there are \"molecules\", \"UberFlow\" and \"searches\""));
+                           "\" in its name; there are \"molecules\" and \"searches\""));
     return out;
 }
 
@@ -33,15 +29,11 @@ void measureAll(const CollideCases& wanted, const Options& options, const BenchD
                 const measure::Schedule& schedule, CollideReport& report) {
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
-    WholeRun run(std::vector<double>(size_t(wanted.groups(options.quick)), report.secondsAGroup * 1.2 + 2));
+    WholeRun run(std::vector<double>(size_t(wanted.molecules) + size_t(wanted.searches),
+                                     report.secondsAGroup * 1.2 + 2));
     const auto progress = [&](double share) { run.tell(share); };
     if (wanted.molecules) {
         report.contact = measureContact(contactCases(options.quick), quad, device, schedule, progress);
-        run.next();
-    }
-    for (const int side : wanted.uberFlow ? uberFlowSides(options.quick) : std::vector<int>()) {
-        for (UberFlowTimes& times : measureUberFlow(side, point, device, schedule, progress))
-            report.uberFlow.push_back(std::move(times));
         run.next();
     }
     if (wanted.searches) {

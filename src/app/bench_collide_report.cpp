@@ -51,40 +51,6 @@ std::string contactText(const std::vector<ContactTimes>& all) {
     return out;
 }
 
-std::string label(const UberFlowTimes& times) {
-    return times.experiment + (times.how.empty() ? "" : ", " + times.how);
-}
-
-size_t placeOf(int side) {
-    return side == 256 ? 0 : side == 512 ? 1 : 2;
-}
-
-std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
-    std::string out;
-    int side = 0;
-    for (const UberFlowTimes& t : all) {
-        if (t.side != side) {
-            side = t.side;
-            out += formatted(
-                "\nUberFlow's experiments, %d x %d particles; ms of a frame's parts, shortest of each\n",
-                side, side);
-            out += formatted("  %-34s%9s%9s%9s%9s%9s%9s%11s%11s\n", "", "motion", "contact", "sort", "draw",
-                             "frame", "fps", "undrawn", "published");
-        }
-        out += formatted("  %-34s", label(t).c_str());
-        if (!t.leftOut.empty()) {
-            out += " left out: " + t.leftOut + "\n";
-            continue;
-        }
-        for (const measure::Spread* spread : {&t.motion, &t.contact, &t.sort, &t.draw, &t.frame})
-            out += spread->min > 0 ? formatted("%9.2f", spread->min * 1e3) : formatted("%9s", "-");
-        out += formatted("%9.3g%11.4g", t.framesPerSecond(), t.undrawnFramesPerSecond());
-        if (!t.published.empty()) out += formatted("%11g", t.published[placeOf(side)]);
-        out += "\n";
-    }
-    return out;
-}
-
 std::string searchText(const SearchReport& report) {
     if (report.shares.empty()) return "\nsearches left out: need OpenGL 4.3\n";
     std::string out = formatted(
@@ -136,18 +102,6 @@ JsonValue asJson(const ContactTimes& t) {
                   key("nanosecondsPerQuad", t.perQuad() * 1e9), key("overBaseline", t.ratio()));
 }
 
-JsonValue asJson(const UberFlowTimes& t) {
-    JsonValue out = object(key("experiment", t.experiment), key("how", t.how), key("side", t.side));
-    std::optional<double> published;
-    if (!t.published.empty()) published = t.published[placeOf(t.side)];
-    if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
-    return append(out, key("motion", asJson(t.motion)), key("contact", asJson(t.contact)),
-                  key("sort", asJson(t.sort)), key("draw", asJson(t.draw)), key("frame", asJson(t.frame)),
-                  key("framesPerSecond", t.framesPerSecond()),
-                  key("undrawnFramesPerSecond", t.undrawnFramesPerSecond()),
-                  key("publishedFramesPerSecond", published));
-}
-
 JsonValue asJson(const SearchShare& share) {
     return object(key("search", name(share.search)), key("spheresPerCell", share.perCell),
                   key("contacts", share.contacts), key("found", share.found),
@@ -170,7 +124,7 @@ JsonValue asJson(const SearchReport& report) {
 
 std::string asText(const CollideReport& report) {
     std::string out = asText(report.machine);
-    out += "\n" + contactText(report.contact) + uberFlowText(report.uberFlow);
+    out += "\n" + contactText(report.contact);
     if (report.searches) out += searchText(*report.searches);
     if (report.contact.empty()) return out;
     return out + "\n" + asText(targets(report), "%.2f");
@@ -180,7 +134,6 @@ JsonValue asJson(const CollideReport& report) {
     JsonValue out = headOf(report.machine);
     return append(out, key("secondsAGroup", report.secondsAGroup),
                   key("contact", arrayOf(report.contact, asJson)),
-                  key("uberFlow", arrayOf(report.uberFlow, asJson)),
                   key("searches", report.searches ? asJson(*report.searches) : JsonValue()),
                   key("targets", asJson(targets(report))));
 }

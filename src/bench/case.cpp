@@ -234,17 +234,6 @@ Molecule cloth(int side) {
     return out;
 }
 
-HeightFieldCollider hills(double half) {
-    HeightFieldCollider out;
-    out.columns = out.rows = 128;
-    out.low = {-half, -half};
-    out.high = {half, half};
-    for (int row = 0; row < out.rows; ++row)
-        for (int column = 0; column < out.columns; ++column)
-            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
-    return out;
-}
-
 Scene benchScene(const BenchCase& one, const Molecule& molecule) {
     Scene scene;
     scene.name = one.name();

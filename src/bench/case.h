@@ -75,8 +75,6 @@ struct BenchMolecules {
     const Molecule& of(const std::string& name) const;
 };
 Molecule cloth(int side);
-// Gentle hills within `half` m of the origin, about 1.5 m below it.
-HeightFieldCollider hills(double half);
 
 Scene benchScene(const BenchCase& one, const Molecule& molecule);
 // Returns the step of the baseline in a scene of benchScene().

@@ -162,6 +162,18 @@ static void addBirths(const ParticleCase& one, Group& group) {
     group.count = 0;
 }
 
+// Gentle hills, about 1.5 m below the origin.
+static HeightFieldCollider hills() {
+    HeightFieldCollider out;
+    out.columns = out.rows = 128;
+    out.low = {-8, -8};
+    out.high = {8, 8};
+    for (int row = 0; row < out.rows; ++row)
+        for (int column = 0; column < out.columns; ++column)
+            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
+    return out;
+}
+
 Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecule& quad) {
     Scene scene;
     scene.name = one.label;
@@ -171,7 +183,7 @@ Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecu
     scene.solver.substeps = one.substeps;
     scene.contact.steps = 1;
     scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
-    if (one.heights) scene.colliders.emplace_back().shape = hills(8);
+    if (one.heights) scene.colliders.emplace_back().shape = hills();
     Group group;
     group.name = one.quads ? "quads" : "points";
     group.molecule = one.quads ? quad : point;

@@ -94,8 +94,7 @@ TEST_CASE("bench refuses what it cannot do", "[cli]") {
     refusal({"bench", "sorr"}, "bench: unknown \"sorr\" (did you mean \"sort\"?)");
     refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
     refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");
-    refusal({"bench", "collide", "--only", "squids"},
-            "there are \"molecules\", \"UberFlow\" and \"searches\"");
+    refusal({"bench", "collide", "--only", "squids"}, "there are \"molecules\" and \"searches\"");
     const std::string none = refusal({"bench", "--only", "squids"}, "nothing has \"squids\" in its name");
     CHECK_THAT(none, Catch::Contains("16,384 crosses"));
     refusal({"bench", "--only", "fish", "--plot", "x.svg"}, "--only leaves none of them");
@@ -228,14 +227,4 @@ TEST_CASE("bench collide tells what each search finds", "[cli]") {
         CHECK(found > 0);
         before = found;
     }
-}
-
-TEST_CASE("bench collide prints UberFlow's experiments beside the published figures", "[cli]") {
-    const Outcome outcome =
-        runShoal({"bench", "collide", "--quick", "--only", "UberFlow", "--seconds", "0.05"});
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    for (const char* word :
-         {"256 x 256", "E1 ", "E2 ", "E3, bitonic", "E4, rows only", "E5, std::sort", "640"})
-        CHECK_THAT(outcome.out, Catch::Contains(word));
 }
