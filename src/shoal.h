@@ -3,8 +3,8 @@
 //   shoal::Scene scene;
 //   scene.gravity = {0, -9.81, 0};
 //   scene.groups.push_back(shoal::groupOf(shoal::readMolecule("leaf.json"), {{0, 1, 0}, {0.5, 1, 0}}));
-//   shoal::gpu::Context context;
-//   shoal::Simulation simulation(context, shaders, shoal::compile(scene));
+//   shoal::gpu::Context context({.shaders = "share/shoal/shaders"});
+//   shoal::Simulation simulation(context, shoal::compile(scene));
 //   simulation.frame();
 //
 // Structs are plain, with defaults: what they hold, in which units, stands beside each member. Mistakes are

@@ -11,6 +11,7 @@ int main() {
     try {
         OwnContext own;  // of the engine; it stays current
         shoal::gpu::ContextOptions options;
+        options.shaders = SHADERS;
         options.loader = eglGetProcAddress;
         shoal::gpu::Context context(options);
 
@@ -18,8 +19,8 @@ int main() {
         scene.groups[0].color = glm::dvec3(0.8, 0.05, 0.05);
         const shoal::Plan plan = shoal::compile(scene);
         constexpr int width = 320, height = 180;
-        shoal::Renderer renderer(context, SHADERS, scene, plan, {.width = width, .height = height});
-        shoal::Simulation simulation(context, SHADERS, plan);
+        shoal::Renderer renderer(context, scene, plan, {.width = width, .height = height});
+        shoal::Simulation simulation(context, plan);
 
         GLuint texture = 0, framebuffer = 0;  // the engine's
         glGenTextures(1, &texture);

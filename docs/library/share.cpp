@@ -27,10 +27,11 @@ int main() {
     try {
         OwnContext own;
         shoal::gpu::ContextOptions options;
+        options.shaders = SHADERS;
         options.loader = eglGetProcAddress;
         shoal::gpu::Context context(options);
         const shoal::Scene scene = shoal::readScene(SHADERS "/../models/hello/hello.scene.json");
-        shoal::Simulation simulation(context, SHADERS, shoal::compile(scene));
+        shoal::Simulation simulation(context, shoal::compile(scene));
         for (int i = 0; i < 20; ++i)
             simulation.frame();
 

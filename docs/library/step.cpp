@@ -21,8 +21,8 @@ int main() {
         scene.groups.push_back(shoal::groupOf(pair(), {{0, 4, 0}, {1, 4, 0}}));
         scene.colliders.push_back(shoal::colliderOf(shoal::PlaneCollider{}));
 
-        shoal::gpu::Context context;
-        shoal::Simulation simulation(context, SHADERS, shoal::compile(scene));
+        shoal::gpu::Context context({.shaders = SHADERS});
+        shoal::Simulation simulation(context, shoal::compile(scene));
         for (int i = 0; i < 30; ++i)
             simulation.frame();
         const double fell = 4 - simulation.snapshot(0).positions[0].y;

@@ -8,8 +8,8 @@
 #include "app/bullet_baseline.h"
 #include "app/commands.h"
 #include "app/plot.h"
-#include "core/cache_folder.h"
 #include "core/printable.h"
+#include "gpu/program_cache.h"
 #include "measure/timing.h"
 #include "render/renderer.h"
 #include "run/data_paths.h"
@@ -142,7 +142,7 @@ static DrawMaker drawMaker(gpu::Context& context) {
         RenderOptions options;
         options.width = pictureWidth;
         options.height = pictureHeight;
-        const auto renderer = std::make_shared<Renderer>(context, shaderRoot(), scene, plan, options);
+        const auto renderer = std::make_shared<Renderer>(context, scene, plan, options);
         return [renderer, view = View::of(scene.camera)](const StateView& state) {
             renderer->draw(state, view);
         };
@@ -159,16 +159,14 @@ static gpu::ContextOptions contextOf(const Options& options) {
 BenchSession::BenchSession(const Options& options, double usual, double quick)
     : context(contextOf(options)),
       contextSeconds(measure::secondsSince(start)),
-      cache(context, cacheFolder()),
       machine(measuredOn(context)),
-      device{&context,      shaderRoot(), &cache, drawMaker(context),
-             machine.cores, {},           false,  !context.info().software} {
+      device{&context, drawMaker(context), machine.cores, {}, false, !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
 }
 
 void BenchSession::end() {
     machine.pinned = measure::pinRasteriserThreads();
-    tellWarnings(cache.takeWarnings());
+    tellWarnings(context.cache().takeWarnings());
 }
 
 WholeRun::WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {

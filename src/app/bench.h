@@ -26,7 +26,6 @@ struct BenchSession {
     measure::Clock::time_point start = measure::Clock::now();
     gpu::Context context;
     double contextSeconds;  // to make it
-    gpu::ProgramCache cache;
     MeasuredOn machine;
     bench::BenchDevice device;
     measure::Schedule schedule;

@@ -57,7 +57,7 @@ Mismatch pictureOf(const NamedFile& scene, const StoredStates& stored, const Ima
     const auto row = std::find(stored.pictures.begin(), stored.pictures.end(), scene.first);
     if (row == stored.pictures.end()) throw Error("no picture of it is stored (docs/testing.md)");
     const PictureMaker draw = [&](const Scene& drawn, const Simulation& simulation) {
-        Renderer renderer(*device.context, device.shaderRoot, drawn, simulation.plan(),
+        Renderer renderer(*device.context, drawn, simulation.plan(),
                           {.width = blockColumns * blockSide, .height = blockRows * blockSide});
         renderer.draw(simulation.state(), View::of(drawn.camera, simulation.time()));
         return renderer.capture();
@@ -83,11 +83,11 @@ class DrawnScene {
     DrawnScene(const NamedFile& file, const BenchDevice& device)
         : device_(device),
           scene_(readScene(file.second)),
-          simulation_(*device.context, device.shaderRoot, compile(scene_), {.cache = device.cache}) {}
+          simulation_(*device.context, compile(scene_), {}) {}
 
     // Draws one frame to make all that is needed, then measures frames until there are enough, or time is up.
     void measure(DrawnTimes& out, bool quick) {
-        renderer_.emplace(*device_.context, device_.shaderRoot, scene_, simulation_.plan(),
+        renderer_.emplace(*device_.context, scene_, simulation_.plan(),
                           RenderOptions{.width = out.width, .height = out.height});
         frame();
         simulate_.clear(), draw_.clear(), ownSimulate_.clear(), ownDraw_.clear();

@@ -51,11 +51,8 @@ SceneCost sceneCost(const Options& options, const Loaded& loaded) {
     if (choice.path == Path::pingPong)
         throw WrongUse("--cost is of the fused path's kernels; this scene runs on the other path: " +
                        choice.why);
-    gpu::ProgramCache cache(context, cacheFolder());
     BenchDevice device;
     device.context = &context;
-    device.shaderRoot = shaderRoot();
-    device.cache = &cache;
     device.ownTimes = !context.info().software;
     SceneCost out{measuredOn(context), context.info().software,
                   deviceRates(device, processorName(), cacheFolder()),

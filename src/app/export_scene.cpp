@@ -6,15 +6,12 @@
 
 #include "app/commands.h"
 #include "app/export_scene.h"
-#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_build.h"
 #include "core/parallel.h"
 #include "core/printable.h"
 #include "exchange/gltf.h"
-#include "gpu/program_cache.h"
-#include "run/data_paths.h"
 #include "run/signals.h"
 
 namespace shoal::app {
@@ -342,13 +339,11 @@ int exportCommand(const Options& options) {
     if (!asked.glb.empty()) checkWritable(asked.glb);
     Loaded loaded = loadScene(options.files.front(), options);
     gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
     SimulationOptions simulationOptions;
     simulationOptions.path = options.path;
     simulationOptions.lanes = options.lanes;
     simulationOptions.drawn = false;
-    simulationOptions.cache = &cache;
-    Simulation simulation(context, shaderRoot(), std::move(loaded.plan), simulationOptions);
+    Simulation simulation(context, std::move(loaded.plan), simulationOptions);
     for (int frame = 0; frame < asked.first && !signalThatAsked(); ++frame)
         simulation.frame();
     if (signalThatAsked()) return 0;

@@ -25,7 +25,7 @@ void keepToSandbox(const Options& options, const std::string& file) {
 }
 
 gpu::ContextOptions hiddenContext(const Options& options) {
-    gpu::ContextOptions out;
+    gpu::ContextOptions out = contextOptions();
     out.kind = options.gpu ? gpu::ContextKind::egl : options.context;
     out.device = options.gpu;
     out.visible = false;

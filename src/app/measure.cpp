@@ -8,6 +8,7 @@
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
+#include "gpu/program_cache.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
 #include "scene/json/scene_file.h"
@@ -108,10 +109,8 @@ CalibrationOptions calibrationOptions(const Options& options) {
     return out;
 }
 
-AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
+AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context) {
     return {.context = &context,
-            .shaderRoot = shaderRoot(),
-            .cache = &cache,
             .cores = int(std::max(1u, std::thread::hardware_concurrency())),
             .path = options.path,
             .lanes = options.lanes,
@@ -119,9 +118,7 @@ AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu
 }
 
 Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded) {
-    gpu::ProgramCache cache(context, cacheFolder());
-    Calibration out =
-        calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context, cache));
+    Calibration out = calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context));
     measure::apply(out, loaded.scene);
     loaded.plan = compile(loaded.scene);
     tellWarnings(loaded.plan.warnings);
@@ -153,9 +150,8 @@ int measureCommand(const Options& options) {
     const Scene scene = readScene(options.files.front(), options);
     tellWarnings(scene.warnings);
     gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
-    const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context, cache));
-    tellWarnings(cache.takeWarnings());
+    const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context));
+    tellWarnings(context.cache().takeWarnings());
     tell(report, options);
     return 0;
 }

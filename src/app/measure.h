@@ -11,7 +11,6 @@
 #include "app/options.h"
 #include "app/report.h"
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "measure/accuracy.h"
 #include "measure/calibrate.h"
 #include "measure/report_scenes.h"
@@ -40,8 +39,7 @@ std::string oneLine(const measure::Calibration& calibration);
 
 // Returns the options that --error, --solver, --substeps, --field-sampling and --duration ask for.
 measure::CalibrationOptions calibrationOptions(const Options& options);
-measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context,
-                                       gpu::ProgramCache& cache);
+measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context);
 
 // For --error: finds the method, puts it into the scene and compiles that; warnings go to standard error.
 measure::Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded);

@@ -13,7 +13,6 @@
 
 #include "app/measure.h"
 #include "app/plot.h"
-#include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
 #include "run/progress.h"
@@ -191,10 +190,9 @@ int measureReport(const Options& given) {
     if (options.samplings.empty()) options.samplings = {FieldSampling::vertexSubstep};
     needGnuplot((fs::path(options.report) / "tables.md").string());
     gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
     const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
     const std::vector<ReportScene> all = reportScenes(count);
-    measureMissing(options, all, accuracyDevice(options, context, cache));
+    measureMissing(options, all, accuracyDevice(options, context));
     tellAll(options, all);
     return 0;
 }

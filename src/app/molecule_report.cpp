@@ -3,7 +3,6 @@
 
 #include "app/commands.h"
 #include "app/molecule_report.h"
-#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/image.h"
@@ -33,9 +32,8 @@ static std::string escaped(const std::string& text) {
 
 void writeMoleculeReport(const Options& options, const Molecule& molecule, const std::string& text) {
     gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
     constexpr int width = 1280, height = 760;
-    const Image sheet = moleculeSheet(context, cache, molecule, width, height);
+    const Image sheet = moleculeSheet(context, molecule, width, height);
     const std::string title = escaped(molecule.name);
     writeFile(
         options.molecule.report,

@@ -6,14 +6,12 @@
 #include "app/options.h"
 #include "core/image.h"
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "molecule/molecule.h"
 
 namespace shoal::app {
 
 // The rest shape and the slowest motions (molecule_show.cpp). Pixels.
-Image moleculeSheet(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule, int width,
-                    int height);
+Image moleculeSheet(gpu::Context& context, const Molecule& molecule, int width, int height);
 
 // The page, to options.molecule.report; `text`: what the command prints.
 void writeMoleculeReport(const Options& options, const Molecule& molecule, const std::string& text);

@@ -8,7 +8,6 @@
 #include "app/canvas.h"
 #include "app/commands.h"
 #include "app/molecule_report.h"
-#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/printable.h"
 #include "molecule/analysis.h"
@@ -34,9 +33,9 @@ glm::vec4 colorOf(double strain) {
 
 class Sheet {
   public:
-    Sheet(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule, int width, int height)
+    Sheet(gpu::Context& context, const Molecule& molecule, int width, int height)
         : molecule_(molecule),
-          stage_(context, cache),
+          stage_(context),
           side_(height),
           small_{(width - height) / int(sheetColumns), height / int(sheetRows)},
           image_{width, height, 4, std::vector<uint8_t>(size_t(width) * size_t(height) * 4, 255)} {
@@ -178,18 +177,14 @@ class Sheet {
 
 }  // namespace
 
-Image moleculeSheet(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule, int width,
-                    int height) {
-    return Sheet(context, cache, molecule, width, height).draw();
+Image moleculeSheet(gpu::Context& context, const Molecule& molecule, int width, int height) {
+    return Sheet(context, molecule, width, height).draw();
 }
 
 int moleculeShowCommand(const Options& options) {
     const Molecule molecule = readMolecule(options.files.front());
-    gpu::ContextOptions wanted;
-    wanted.kind = options.context;
-    gpu::Context context(wanted);
-    gpu::ProgramCache cache(context, cacheFolder());
-    writePng(options.capture, moleculeSheet(context, cache, molecule, options.width, options.height));
+    gpu::Context context(hiddenContext(options));
+    writePng(options.capture, moleculeSheet(context, molecule, options.width, options.height));
     std::cout << "picture: " << printable(options.capture) << "\n";
     return 0;
 }

@@ -12,11 +12,11 @@
 #include "app/export.h"
 #include "app/measure.h"
 #include "app/report.h"
-#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json.h"
 #include "core/printable.h"
+#include "gpu/program_cache.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "run/checkpoints.h"
@@ -59,7 +59,7 @@ bool asksForNothing(const Options& options) {
            !options.timings;
 }
 
-SimulationOptions simulationOptions(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
+SimulationOptions simulationOptions(const Options& options, gpu::Context& context) {
     SimulationOptions out;
     if (options.timings) out.timing = gpu::PassTimers::suitedTo(context.info());
     out.drawn = asksForNothing(options) || !options.capture.empty() || !options.exports.empty();
@@ -67,7 +67,6 @@ SimulationOptions simulationOptions(const Options& options, gpu::Context& contex
     out.lanes = options.lanes;
     out.inPlace = options.inPlace;
     out.watchdog = !options.unwatched;
-    out.cache = &cache;
     return out;
 }
 
@@ -96,11 +95,9 @@ class HeadlessRun {
           context_(context),
           frames_(options.frames.value_or(headlessFrames)),
           scene_(std::move(loaded.scene)),
-          cache_(context, cacheFolder()),
-          simulation_(context, shaderRoot(), std::move(loaded.plan),
-                      simulationOptions(options, context, cache_)) {
+          simulation_(context, std::move(loaded.plan), simulationOptions(options, context)) {
         tellWarnings(simulation_.warnings());
-        tellWarnings(cache_.takeWarnings());
+        tellWarnings(context.cache().takeWarnings());
         report_.scene = options.files.front();
         resume(options, simulation_);
         first_ = simulation_.frames();
@@ -119,7 +116,7 @@ class HeadlessRun {
         size.width = options.width;
         size.height = options.height;
         if (options.timings) size.timing = gpu::PassTimers::suitedTo(context.info());
-        renderer_ = std::make_unique<Renderer>(context, shaderRoot(), scene_, simulation_.plan(), size);
+        renderer_ = std::make_unique<Renderer>(context, scene_, simulation_.plan(), size);
         pictures_ =
             std::make_unique<PictureWriter>(target, scene_.frameRate / every_, frames_ > every_, last_);
     }
@@ -283,7 +280,6 @@ class HeadlessRun {
     int frames_, every_ = 1;
     int first_ = 0, last_ = 0;  // where the run goes on, where it ends
     Scene scene_;
-    gpu::ProgramCache cache_;
     Simulation simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;

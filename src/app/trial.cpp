@@ -4,11 +4,8 @@
 #include <cmath>
 
 #include "app/commands.h"
-#include "core/cache_folder.h"
 #include "core/error.h"
-#include "gpu/program_cache.h"
 #include "molecule/analysis.h"
-#include "run/data_paths.h"
 #include "scene/collider_kinds.h"
 #include "simulate/simulation.h"
 
@@ -61,11 +58,9 @@ Trial tryOut(const Molecule& molecule, const Options& options) {
         out.untried = error.message();
         return out;
     }
-    gpu::ProgramCache cache(*context, cacheFolder());
     SimulationOptions simulationOptions;
     simulationOptions.drawn = false;
-    simulationOptions.cache = &cache;
-    Simulation simulation(*context, shaderRoot(), std::move(plan), simulationOptions);
+    Simulation simulation(*context, std::move(plan), simulationOptions);
     for (int frame = 0; frame < Trial::frames; ++frame) {
         simulation.frame();
         if (frame % 4 != 3) continue;

@@ -58,8 +58,8 @@ class ContactEntrant {
   public:
     ContactEntrant(ContactTimes& result, const Molecule& quad, const BenchDevice& device)
         : result_(result),
-          contact_(*device.context, device.shaderRoot, planOf(result.one, quad, true), options(device)),
-          plain_(*device.context, device.shaderRoot, planOf(result.one, quad, false), options(device)),
+          contact_(*device.context, planOf(result.one, quad, true), options()),
+          plain_(*device.context, planOf(result.one, quad, false), options()),
           baseline_(weightsOf(quad), result.one.quads, float(ContactCase::radius), device.cores) {
         const Plan& plan = contact_.plan();
         result.spheres = size_t(plan.contact.spheres);
@@ -72,8 +72,8 @@ class ContactEntrant {
         plain_.frame();
         start_ = plain_.save().groups[0];
         if (device.ownTimes)
-            own_.emplace(*device.context, device.shaderRoot, planOf(result.one, quad, true),
-                         options(device, gpu::PassTimers::Mode::query));
+            own_.emplace(*device.context, planOf(result.one, quad, true),
+                         options(gpu::PassTimers::Mode::query));
     }
 
     // Not counted: compiles, touches memory, and compares what both find; then what a visit costs.
@@ -136,9 +136,8 @@ class ContactEntrant {
         return out;
     }
     // One frame at a time is waited for anyway.
-    static SimulationOptions options(const BenchDevice& device,
-                                     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::finish) {
-        return {.drawn = false, .timing = timing, .path = Path::fused, .cache = device.cache};
+    static SimulationOptions options(gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::finish) {
+        return {.drawn = false, .timing = timing, .path = Path::fused};
     }
     static std::vector<float> weightsOf(const Molecule& quad) {
         std::vector<float> out;

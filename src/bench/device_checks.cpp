@@ -27,8 +27,7 @@ constexpr double exceptions = 0.05;
 std::unique_ptr<Simulation> checkedSimulation(const Scene& scene, const BenchDevice& device,
                                               SimulationOptions options) {
     options.drawn = false;
-    options.cache = device.cache;
-    return std::make_unique<Simulation>(*device.context, device.shaderRoot, compile(scene), options);
+    return std::make_unique<Simulation>(*device.context, compile(scene), options);
 }
 
 void advance(Simulation& simulation, int frames) {

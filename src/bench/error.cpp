@@ -85,8 +85,8 @@ std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const Ben
         BenchError& one = out[i];
         if (needsCompute(one.subject) && !device.context->info().computeShaders) continue;
         const Scene scene = inTheAir(one, molecules.quad, count);
-        const SimulationOptions options{.drawn = false, .path = pathOf(one.subject), .cache = device.cache};
-        Simulation simulation(*device.context, device.shaderRoot, compile(scene), options);
+        const SimulationOptions options{.drawn = false, .path = pathOf(one.subject)};
+        Simulation simulation(*device.context, compile(scene), options);
         std::optional<Exact>& solution = exact[size_t(one.wind)];
         if (!solution) solution = solveAll(scene, simulation.snapshot(0), device.cores);
         for (int frame = 0; frame < int(std::lround(duration * scene.frameRate)); ++frame)

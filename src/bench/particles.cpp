@@ -27,9 +27,8 @@ int framesToSteady(const ParticleCase& one) {
 }
 
 Simulation makeSimulation(const ParticleCase& one, const Scene& scene, const BenchDevice& device) {
-    const SimulationOptions options{
-        .drawn = one.drawn.has_value(), .path = one.path, .inPlace = one.inPlace, .cache = device.cache};
-    return Simulation(*device.context, device.shaderRoot, compile(scene), options);
+    const SimulationOptions options{.drawn = one.drawn.has_value(), .path = one.path, .inPlace = one.inPlace};
+    return Simulation(*device.context, compile(scene), options);
 }
 
 class StepRunner : public BenchRunner {
@@ -59,8 +58,7 @@ class StepRunner : public BenchRunner {
     void makeSorter(const BenchDevice& device) {
         const size_t pairs = size_t(one_.count());
         const int row = one_.sort == SortMethod::radix ? 0 : one_.side;
-        sorter_ = std::make_unique<Sorter>(*device.context, device.shaderRoot, *one_.sort, pairs, row,
-                                           device.cache);
+        sorter_ = std::make_unique<Sorter>(*device.context, *one_.sort, pairs, row);
         sorter_->upload(randomKeys(pairs));
     }
     void sort() {

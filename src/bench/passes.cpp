@@ -35,11 +35,8 @@ Run makeRun(const PassTable& table, const BenchMolecules& molecules, const Bench
     Plan plan = compile(benchScene(like, molecules.quad));
     plan.groups[0].start = BenchStart(like, molecules.quad, device.cores).packed;
     const SimulationOptions options{.timing = gpu::PassTimers::suitedTo(device.context->info()),
-                                    .path = pathOf(table.subject),
-                                    .cache = device.cache};
-    Run out{table,
-            std::make_unique<Simulation>(*device.context, device.shaderRoot, std::move(plan), options),
-            {}};
+                                    .path = pathOf(table.subject)};
+    Run out{table, std::make_unique<Simulation>(*device.context, std::move(plan), options), {}};
     frame(out);  // compiles and warms up
     out.simulation->timers().drain();
     out.simulation->timers().reset();

@@ -20,8 +20,7 @@ class PathRunner : public BenchRunner {
   public:
     PathRunner(const BenchCase& one, const Molecule& molecule, const BenchStart& start,
                const BenchDevice& device)
-        : scene_(benchScene(one, molecule)),
-          simulation_(*device.context, device.shaderRoot, planOf(start), optionsOf(one, device)) {
+        : scene_(benchScene(one, molecule)), simulation_(*device.context, planOf(start), optionsOf(one)) {
         if (one.drawn) draw_ = device.makeDraw(scene_, simulation_.plan());
         stateBytes = simulation_.stateBytes();
         lanes = simulation_.lanes(0);
@@ -41,12 +40,8 @@ class PathRunner : public BenchRunner {
         out.groups[0].start = start.packed;
         return out;
     }
-    static SimulationOptions optionsOf(const BenchCase& one, const BenchDevice& device) {
-        return {.drawn = one.drawn,
-                .path = pathOf(one.subject),
-                .inPlace = one.inPlace,
-                .lanes = one.lanes,
-                .cache = device.cache};
+    static SimulationOptions optionsOf(const BenchCase& one) {
+        return {.drawn = one.drawn, .path = pathOf(one.subject), .inPlace = one.inPlace, .lanes = one.lanes};
     }
 
     Scene scene_;
@@ -102,7 +97,7 @@ class KernelCopy : public BufferCopy {
         options.label = "copy";
         options.defines = {concat("LANES ", lanesOfGroup)};
         if (device.context->info().software) options.defines.emplace_back("SOFTWARE");
-        program_ = gpu::Program(*device.context, device.shaderRoot, options);
+        program_ = gpu::Program(*device.context, options);
         for (size_t i = 0; i < 2; ++i)
             textures_[i] = gpu::BufferTexture(*device.context, sides_[i], "copy");
     }
@@ -131,7 +126,7 @@ class MultiplyAdd : public BenchRunner {
         options.compute = "bench/multiply_add.comp";
         options.label = "multiply-adds";
         options.defines = {concat("LANES ", lanesOfGroup), concat("ROUNDS ", rounds)};
-        program_ = gpu::Program(*device.context, device.shaderRoot, options);
+        program_ = gpu::Program(*device.context, options);
         result_ = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, nullptr,
                               size_t(groups * lanesOfGroup) * sizeof(float), "multiply-adds");
         operations = 16.0 * rounds * groups * lanesOfGroup;

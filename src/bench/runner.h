@@ -13,7 +13,6 @@
 #include "compile/plan.h"
 #include "gpu/context.h"
 #include "gpu/pass_timers.h"
-#include "gpu/program_cache.h"
 #include "simulate/state_view.h"
 
 namespace shoal::bench {
@@ -28,8 +27,6 @@ using BulletMaker = std::function<std::unique_ptr<BenchRunner>(const BenchCase&,
 
 struct BenchDevice {
     gpu::Context* context = nullptr;
-    std::string shaderRoot;
-    gpu::ProgramCache* cache = nullptr;
     DrawMaker makeDraw = {};      // null: cases with a picture are left out
     int cores = 1;                // threads of the baselines
     BulletMaker makeBullet = {};  // null: its cases are left out

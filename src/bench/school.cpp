@@ -13,8 +13,8 @@ class SchoolEntrant {
   public:
     SchoolEntrant(SchoolTimes& times, const Molecule& fry, const BenchDevice& device)
         : times_(times),
-          simulation_(*device.context, device.shaderRoot, compile(schoolScene(times.one, fry)),
-                      {.drawn = false, .path = times.one.path, .cache = device.cache}),
+          simulation_(*device.context, compile(schoolScene(times.one, fry)),
+                      {.drawn = false, .path = times.one.path}),
           ownTimes_(device.ownTimes) {}
 
     // Half a second, by which they are in motion; then what a visit costs.

@@ -58,12 +58,9 @@ size_t common(const Pairs& a, const Pairs& b) {
 
 std::unique_ptr<Simulation> simulationOf(const Scene& scene, const BenchDevice& device) {
     // No watchdog: what overlaps is pushed apart in no time.
-    const SimulationOptions options{.drawn = false,
-                                    .timing = gpu::PassTimers::Mode::finish,
-                                    .path = Path::fused,
-                                    .cache = device.cache,
-                                    .watchdog = false};
-    return std::make_unique<Simulation>(*device.context, device.shaderRoot, compile(scene), options);
+    const SimulationOptions options{
+        .drawn = false, .timing = gpu::PassTimers::Mode::finish, .path = Path::fused, .watchdog = false};
+    return std::make_unique<Simulation>(*device.context, compile(scene), options);
 }
 
 struct SearchRun {

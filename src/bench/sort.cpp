@@ -35,8 +35,8 @@ class DeviceSort final : public SortRunner {
         : input_(input),
           rowsOnly_(rowsOnly),
           side_(size_t(side)),
-          sorter_(*device.context, device.shaderRoot, method, input.size(),
-                  method == SortMethod::radix || method == SortMethod::cpu ? 0 : side, device.cache) {
+          sorter_(*device.context, method, input.size(),
+                  method == SortMethod::radix || method == SortMethod::cpu ? 0 : side) {
         restart();
         if (rowsOnly)
             passes = int(bitonicPasses(side_).size());

@@ -31,12 +31,13 @@ class ScratchFolder {
     std::filesystem::path path;
 };
 
-double firstFrame(const Plan& plan, const BenchDevice& device, gpu::ProgramCache* cache) {
-    const SimulationOptions options{.drawn = false, .path = Path::fused, .cache = cache};
+double firstFrame(const Plan& plan, const BenchDevice& device, const std::string& cache) {
+    const SimulationOptions options{.drawn = false, .path = Path::fused};
     Plan own = plan;
+    device.context->setCache(cache);
     glFinish();
     const Clock::time_point start = Clock::now();
-    Simulation simulation(*device.context, device.shaderRoot, std::move(own), options);
+    Simulation simulation(*device.context, std::move(own), options);
     simulation.frame();
     glFinish();
     return secondsSince(start);
@@ -74,10 +75,9 @@ std::vector<StartTime> measureStart(const BenchMolecules& molecules, const Bench
         const Plan plan = compile(scene);
         one.compile = secondsSince(start);
         const ScratchFolder folder;
-        gpu::ProgramCache cache(*device.context, folder.path.string());
-        one.cold = firstFrame(plan, device, &cache);
-        one.driver = firstFrame(plan, device, nullptr);
-        one.cached = firstFrame(plan, device, &cache);
+        one.cold = firstFrame(plan, device, folder.path.string());
+        one.driver = firstFrame(plan, device, "");
+        one.cached = firstFrame(plan, device, folder.path.string());
     }
     return out;
 }

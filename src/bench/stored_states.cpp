@@ -185,8 +185,7 @@ Mismatch mismatch(const Simulation& simulation, const StoredGroup& stored, size_
 }
 
 StoredState recordState(const std::string& name, const Scene& scene, int frames, const BenchDevice& device) {
-    Simulation simulation(*device.context, device.shaderRoot, compile(scene),
-                          {.drawn = false, .cache = device.cache});
+    Simulation simulation(*device.context, compile(scene), {.drawn = false});
     StoredState out{name, frames, {}};
     std::vector<std::vector<double>> moved;  // of each group's statistics, then of its vertices
     const int runs = 1 + shiftedRuns + int(!simulation.plan().noiseTiles.empty());
@@ -241,7 +240,7 @@ StoredState recordState(const std::string& name, const Scene& scene, int frames,
 }
 
 Image recordPicture(const Scene& scene, const BenchDevice& device, const PictureMaker& draw) {
-    Simulation simulation(*device.context, device.shaderRoot, compile(scene), {.cache = device.cache});
+    Simulation simulation(*device.context, compile(scene), {});
     for (int frame = 0; frame < picturedFrames; ++frame)
         simulation.frame();
     simulation.check();

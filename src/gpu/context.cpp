@@ -10,6 +10,7 @@
 #include "core/printable.h"
 #include "gpu/gl.h"
 #include "gpu/platform.h"
+#include "gpu/program_cache.h"
 
 namespace shoal::gpu {
 
@@ -218,6 +219,8 @@ Context::Context(const ContextOptions& options) {
         leaveCurrent();
         try {
             state_ = open(kind, options);
+            setShaders(options.shaders);
+            setCache(options.cache);
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());
@@ -227,6 +230,10 @@ Context::Context(const ContextOptions& options) {
     restore(before);
     if (options.device) throw Error("EGL's device cannot be used:" + tried);
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
+}
+
+void Context::setCache(const std::string& folder) {
+    state_->cache = std::make_unique<ProgramCache>(info(), folder);
 }
 
 void Context::makeCurrent() {

@@ -63,6 +63,7 @@ class DeviceLost : public Error {
 };
 
 class Platform;
+class ProgramCache;
 
 enum class ContextKind { automatic, window, egl, osmesa, given };  // given: the caller's own
 
@@ -84,6 +85,8 @@ struct ContextOptions {
     void (*(*loader)(const char* name))() = nullptr;
     std::optional<int> device;  // EGL: that of probeDevices(); nothing: the best that there is
     bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
+    std::string shaders = {};   // folder of the shaders that programs are made of
+    std::string cache = {};     // folder in which linked programs are kept; empty: nowhere
 };
 
 // How often all loops of a shader together turn on Mesa's CPU rasterisers, which then leave every loop after
@@ -128,6 +131,11 @@ class Context {
     bool isCurrent() const;
     const ContextInfo& info() const { return state_->info; }
     Traffic& traffic() { return state_->traffic; }
+    const std::string& shaders() const { return state_->shaders; }
+    ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h
+    // For programs that are made from now on.
+    void setShaders(const std::string& folder) { state_->shaders = folder; }
+    void setCache(const std::string& folder);
     // Files on disk that programs of this context were made of.
     const std::set<std::string>& shaderFiles() const { return state_->shaderFiles; }
     void noteShaderFile(const std::string& file) { state_->shaderFiles.insert(file); }
@@ -143,6 +151,8 @@ class Context {
         std::unique_ptr<Platform> platform;
         ContextInfo info;
         Traffic traffic;
+        std::string shaders;
+        std::unique_ptr<ProgramCache> cache;
         std::set<std::string> shaderFiles;
         State();
         ~State();

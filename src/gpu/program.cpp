@@ -118,7 +118,7 @@ GLuint lastUsed = 0;
 
 }  // namespace
 
-Program::Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options)
+Program::Program(Context& context, const ProgramOptions& options)
     : label_(!options.label.empty()     ? options.label
              : !options.compute.empty() ? options.compute
                                         : options.fragment) {
@@ -126,12 +126,16 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     if (!options.compute.empty() && !info.computeShaders)
         throw Error(
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
-    const std::vector<Stage> stages = readStages(shaderRoot, options);
+    if (context.shaders().empty())
+        throw Error(
+            "the context has no shaders: ContextOptions::shaders is their folder (share/shoal/shaders "
+            "where Shoal is installed)");
+    const std::vector<Stage> stages = readStages(context.shaders(), options);
     for (const Stage& stage : stages)
         for (const std::string& file : stage.source.files)
-            if (file.rfind(shaderRoot, 0) == 0) context.noteShaderFile(file);
+            if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
-    if (options.cache == nullptr) {
+    if (!context.cache().active()) {
         compileAndLink(id(), stages, options, label_);
     } else {
         context.checkErrors("before a program is made");
@@ -140,9 +144,9 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
         for (const Stage& stage : stages)
             texts.emplace_back(stage.source.text);
         const std::string key = programKey(info, texts);
-        if (!options.cache->load(key, id())) {
+        if (!context.cache().load(key, id())) {
             compileAndLink(id(), stages, options, label_);
-            options.cache->store(key, id());
+            context.cache().store(key, id());
         }
     }
     locations_ = readLocations(id());
@@ -228,8 +232,7 @@ void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
-const Program& Programs::get(Context& context, const std::string& shaderRoot, const ProgramOptions& options,
-                             const std::string& with) {
+const Program& Programs::get(Context& context, const ProgramOptions& options, const std::string& with) {
     std::string key;
     const auto add = [&key](const std::string& part) {
         key += std::to_string(part.size()) + ":";  // so that parts cannot run into each other
@@ -245,7 +248,7 @@ const Program& Programs::get(Context& context, const std::string& shaderRoot, co
     }
     const auto found = made_.find(key);
     if (found != made_.end()) return found->second;
-    return made_.emplace(std::move(key), Program(context, shaderRoot, options)).first->second;
+    return made_.emplace(std::move(key), Program(context, options)).first->second;
 }
 
 }  // namespace shoal::gpu

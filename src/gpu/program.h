@@ -17,17 +17,15 @@
 
 namespace shoal::gpu {
 
-class ProgramCache;
 struct ShaderSource;
 
 struct ProgramOptions {
-    std::string vertex, fragment;                  // files below the root of the shaders
+    std::string vertex, fragment;                  // files below Context::shaders()
     std::vector<std::string> defines;              // "NAME" or "NAME value"
     std::map<std::string, std::string> generated;  // files that exist only in memory, by include name
     std::string label;
     std::string compute = {};  // a compute program: its file; vertex and fragment stay empty
     std::function<void(ShaderSource&)> rewrite = {};  // changes a stage's text once its includes are in
-    ProgramCache* cache = nullptr;  // linked programs on disk, borrowed for the constructor; null: none
 };
 
 class Program {
@@ -35,7 +33,7 @@ class Program {
     Program() = default;
     // Error: a file is missing, or the driver refuses; located in our file and line, with the driver's log. A
     // compute program in a context below 4.3.
-    Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options);
+    Program(Context& context, const ProgramOptions& options);
 
     void use() const;
 
@@ -97,8 +95,7 @@ class Programs {
   public:
     // `with`: what else must be equal, for uniforms that are set only once. What `rewrite` does must follow
     // from the other options. The program stays where it is as long as this does. Error: Program's.
-    const Program& get(Context& context, const std::string& shaderRoot, const ProgramOptions& options,
-                       const std::string& with = {});
+    const Program& get(Context& context, const ProgramOptions& options, const std::string& with = {});
 
   private:
     std::map<std::string, Program> made_;

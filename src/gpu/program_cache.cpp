@@ -65,8 +65,8 @@ std::string programKey(const ContextInfo& info, std::span<const std::string_view
     return contentKey(all);
 }
 
-ProgramCache::ProgramCache(const Context& context, std::string folder) : folder_(std::move(folder)) {
-    if (folder_.empty() || !context.info().atLeast(4, 1)) return;
+ProgramCache::ProgramCache(const ContextInfo& info, std::string folder) : folder_(std::move(folder)) {
+    if (folder_.empty() || !info.atLeast(4, 1)) return;
     GLint formats = 0;
     glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     active_ = formats > 0;

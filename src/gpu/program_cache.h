@@ -34,7 +34,7 @@ class ProgramCache {
 
     // The folder is made when something is written. Does nothing without a folder, below OpenGL 4.1, and
     // where the driver hands out no binaries.
-    ProgramCache(const Context& context, std::string folder);
+    ProgramCache(const ContextInfo& info, std::string folder);
 
     // For Program. Fills a program that is new; false: link it, then store() it.
     bool load(const std::string& key, GLuint program);

@@ -141,7 +141,7 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
     hash.add(options.version);
     hash.add(options.processor);
     addDevice(hash, device);
-    addShaders(hash, device.shaderRoot);
+    addShaders(hash, device.context->shaders());
     return hash.digits();
 }
 

@@ -47,10 +47,8 @@ void MethodRunner::set(Step step) {
         options.path = device_.path;
         options.lanes = device_.lanes;
         options.inPlace = device_.inPlace;
-        options.cache = device_.cache;
         options.watchdog = false;  // what blows up is an outcome here
-        simulation_ =
-            std::make_unique<Simulation>(*device_.context, device_.shaderRoot, compile(at(step)), options);
+        simulation_ = std::make_unique<Simulation>(*device_.context, compile(at(step)), options);
     }
     step_ = step;
     simulation_->parameters.substeps = step.substeps;

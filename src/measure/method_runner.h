@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "measure/timing.h"
 #include "scene/scene.h"
 #include "simulate/simulation.h"
@@ -36,8 +35,6 @@ struct Step {
 
 struct AccuracyDevice {
     gpu::Context* context = nullptr;
-    std::string shaderRoot;
-    gpu::ProgramCache* cache = nullptr;
     int cores = 1;  // threads of the reference
     Path path = Path::automatic;
     Lanes lanes = Lanes::automatic;

@@ -9,7 +9,6 @@
 #include "python/parameters.h"
 #include "python/scene.h"
 #include "python/simulation.h"
-#include "run/data_paths.h"
 #include "run/scene_list.h"
 #include "scene/json/scene_file.h"
 
@@ -81,7 +80,7 @@ py::list measureScene(const PyScene& scene, double duration, const std::vector<s
         enter(on);
         SignalWatch watch;
         report = measure::measureAccuracy(
-            scene.scene, options, {&on.context, shaderRoot(), &on.cache, allThreads()},
+            scene.scene, options, {&on.context, allThreads()},
             {.stage = [&](const char*) { watch.look(); }, .tell = [&](double) { watch.look(); }});
     }
     py::list out;

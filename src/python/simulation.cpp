@@ -19,7 +19,7 @@ Device& deviceOf(std::optional<int> number) {
     static auto& devices = *new std::map<std::optional<int>, Device*>;
     Device*& device = devices[number];
     if (!device) {
-        gpu::ContextOptions options;
+        gpu::ContextOptions options = contextOptions();
         options.visible = false;
         options.device = number;
         if (number) options.kind = gpu::ContextKind::egl;
@@ -72,8 +72,7 @@ PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string
         enter(*device_);
         SimulationOptions options;
         options.path = wanted;
-        options.cache = &device_->cache;
-        simulation_ = std::make_unique<Simulation>(device_->context, shaderRoot(), compile(scene_), options);
+        simulation_ = std::make_unique<Simulation>(device_->context, compile(scene_), options);
     }
     for (const Warning& warning : simulation_->warnings())
         if (PyErr_WarnEx(PyExc_RuntimeWarning, text(warning).c_str(), 1) != 0) throw py::error_already_set();
@@ -198,8 +197,7 @@ py::array PySimulation::picture(int width, int height, const std::optional<std::
         options.width = width;
         options.height = height;
         if (!renderer_)
-            renderer_ = std::make_unique<Renderer>(device_->context, shaderRoot(), scene_, simulation.plan(),
-                                                   options);
+            renderer_ = std::make_unique<Renderer>(device_->context, scene_, simulation.plan(), options);
         renderer_->resize(width, height);
         View view = View::of(scene_.camera, simulation.time());
         if (eye) view.eye = finite("eye", *eye);

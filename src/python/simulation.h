@@ -9,8 +9,6 @@
 #include <optional>
 #include <thread>
 
-#include "core/cache_folder.h"
-#include "gpu/program_cache.h"
 #include "python/scene.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -22,10 +20,9 @@ using Vector3 = std::array<double, 3>;
 
 struct Device {
     gpu::Context context;
-    gpu::ProgramCache cache;
     std::thread::id thread = std::this_thread::get_id();
 
-    explicit Device(const gpu::ContextOptions& options) : context(options), cache(context, cacheFolder()) {}
+    explicit Device(const gpu::ContextOptions& options) : context(options) {}
 };
 // By its number among those of EGL; nothing: the best. Made at the first call.
 Device& deviceOf(std::optional<int> number);

@@ -47,10 +47,9 @@ void StateReader::bind(const gpu::Program& program, const StateView& state,
 
 // ---- The order
 
-DrawOrder::DrawOrder(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group,
-                     size_t index, DrawSort sort, int spreadFrames)
+DrawOrder::DrawOrder(gpu::Context& context, const GroupPlan& group, size_t index, DrawSort sort,
+                     int spreadFrames)
     : context_(&context),
-      shaderRoot_(shaderRoot),
       name_(group.name),
       reader_(group, index),
       count_(group.count),
@@ -61,10 +60,10 @@ DrawOrder::DrawOrder(gpu::Context& context, const std::string& shaderRoot, const
     if (sort == DrawSort::spread || !context.info().computeShaders) {
         const auto kind =
             sort == DrawSort::spread ? NetworkSort::Kind::oddEvenMerge : NetworkSort::Kind::bitonic;
-        network_ = std::make_unique<NetworkSort>(context, shaderRoot, kind, count);
+        network_ = std::make_unique<NetworkSort>(context, kind, count);
         return;
     }
-    if (sort == DrawSort::frame) radix_ = std::make_unique<RadixSort>(context, shaderRoot, count);
+    if (sort == DrawSort::frame) radix_ = std::make_unique<RadixSort>(context, count);
     pairs_ = gpu::Buffer(context, gpu::Buffer::Use::storage, nullptr, count * sizeof(KeyIndex), "draw order");
     pairTexels_ = gpu::BufferTexture(context, pairs_, gpu::Texel::uint2, "draw order");
 }
@@ -97,7 +96,7 @@ const gpu::Program& DrawOrder::keysProgram(const StateView& state) {
         options.compute = "render/order_keys.comp";
     }
     options.label = name_ + " (order)";
-    program = gpu::Program(*context_, shaderRoot_, options);
+    program = gpu::Program(*context_, options);
     return program;
 }
 
@@ -154,12 +153,10 @@ std::vector<KeyIndex> DrawOrder::download() const {
 
 // ---- Slabs
 
-DepthSlabs::DepthSlabs(gpu::Context& context, const std::string& shaderRoot, int count,
-                       const DrawOrder& order)
+DepthSlabs::DepthSlabs(gpu::Context& context, int count, const DrawOrder& order)
     : bounds_(context, gpu::Format::rg32ui, count, 1, "depth slabs"),
       target_(context, {&bounds_}, nullptr, "depth slabs"),
-      program_(context, shaderRoot,
-               {"passes/fullscreen.vert", "render/slabs.frag", order.defines(), {}, "depth slabs"}),
+      program_(context, {"passes/fullscreen.vert", "render/slabs.frag", order.defines(), {}, "depth slabs"}),
       noAttributes_(context, "depth slabs") {}
 
 void DepthSlabs::update(const DrawOrder& order) {
@@ -190,11 +187,11 @@ static gpu::ProgramOptions findingDraws(const DrawOrder& order, size_t streams) 
     return options;
 }
 
-SlabDraws::SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
+SlabDraws::SlabDraws(gpu::Context& context, int slabs, const DrawOrder& order,
                      std::vector<DrawStream> streams)
     : slabs_(slabs),
       streams_(std::move(streams)),
-      program_(context, shaderRoot, findingDraws(order, streams_.size())),
+      program_(context, findingDraws(order, streams_.size())),
       draws_(context, gpu::Buffer::Use::storage, nullptr, size_t(slabs) * drawBytes, "slab draws"),
       drawTexels_(context, draws_, gpu::Texel::uint1, "slab draws") {}
 
@@ -237,12 +234,12 @@ size_t LevelDraws::levelInShadow(const std::vector<DrawStream>& levels, double t
     return level;
 }
 
-LevelDraws::LevelDraws(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group,
-                       size_t index, const std::vector<DrawStream>& levels, double scale)
+LevelDraws::LevelDraws(gpu::Context& context, const GroupPlan& group, size_t index,
+                       const std::vector<DrawStream>& levels, double scale)
     : radius_(scale * group.size),
-      order_(context, shaderRoot, group, index, DrawSort::frame, 0),
+      order_(context, group, index, DrawSort::frame, 0),
       bounds_(context, gpu::Format::rg32ui, int(levels.size()), 1, "levels of detail"),
-      draws_(context, shaderRoot, int(levels.size()), order_, {levels.rbegin(), levels.rend()}) {
+      draws_(context, int(levels.size()), order_, {levels.rbegin(), levels.rend()}) {
     for (size_t i = levels.size() - 1; i > 0; --i)
         errors_.push_back(scale * levels[i].error);
 }

@@ -49,8 +49,7 @@ class DrawOrder {
   public:
     // `index` of the group in the plan. Error: more molecules than the context can sort, with how many it
     // can.
-    DrawOrder(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group, size_t index,
-              DrawSort sort, int spreadFrames);
+    DrawOrder(gpu::Context& context, const GroupPlan& group, size_t index, DrawSort sort, int spreadFrames);
 
     // For the programs that read the order (shaders/render/order.glsl).
     std::vector<std::string> defines() const;
@@ -70,7 +69,7 @@ class DrawOrder {
     void setKeys(const StateView& state, const Eye& eye, bool keepOrder);
 
     gpu::Context* context_;
-    std::string shaderRoot_, name_;
+    std::string name_;
     StateReader reader_;
     int count_, vertexCount_;
     DrawSort sort_;
@@ -86,7 +85,7 @@ class DrawOrder {
 class DepthSlabs {
   public:
     // Every slab is to hold about as many molecules of the group with this order.
-    DepthSlabs(gpu::Context& context, const std::string& shaderRoot, int count, const DrawOrder& order);
+    DepthSlabs(gpu::Context& context, int count, const DrawOrder& order);
 
     void update(const DrawOrder& order);  // of the group that it was made for; changes the framebuffer
     void bind(const gpu::Program& program) const;
@@ -114,8 +113,7 @@ struct DrawStream {
 class SlabDraws {
   public:
     // `streams`: one for all slabs, or one each.
-    SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
-              std::vector<DrawStream> streams);
+    SlabDraws(gpu::Context& context, int slabs, const DrawOrder& order, std::vector<DrawStream> streams);
 
     int slabs() const { return slabs_; }
     // `bounds`: texel s holds the first key of slab s and the first one past it.
@@ -141,7 +139,7 @@ class LevelDraws {
     static size_t levelInShadow(const std::vector<DrawStream>& levels, double texelsPerMeter);
 
     // `scale`: of the largest molecule. Error: DrawOrder's.
-    LevelDraws(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group, size_t index,
+    LevelDraws(gpu::Context& context, const GroupPlan& group, size_t index,
                const std::vector<DrawStream>& levels, double scale);
 
     // Updates the draws to the state as `eye` sees it; changes what DrawOrder::update() does.

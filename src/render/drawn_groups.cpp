@@ -6,8 +6,8 @@
 
 namespace shoal {
 
-DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                         const Plan& plan, const Lighting& lighting, int slabs, double pixelsPerMeter) {
+DrawnGroups::DrawnGroups(gpu::Context& context, const Scene& scene, const Plan& plan,
+                         const Lighting& lighting, int slabs, double pixelsPerMeter) {
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& groupPlan = plan.groups[g];
         if (groupPlan.count == 0) continue;
@@ -15,11 +15,11 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         const Material& material = group.molecule.material;
         Drawn drawn;
         if (group.particle)
-            drawn.drawer = std::make_unique<ParticleDrawer>(context, shaderRoot, *programs_, *group.particle,
-                                                            groupPlan, g, lighting, pixelsPerMeter);
+            drawn.drawer = std::make_unique<ParticleDrawer>(context, *programs_, *group.particle, groupPlan,
+                                                            g, lighting, pixelsPerMeter);
         else
-            drawn.drawer = std::make_unique<MoleculeDrawer>(context, shaderRoot, *programs_, group, groupPlan,
-                                                            g, lighting);
+            drawn.drawer =
+                std::make_unique<MoleculeDrawer>(context, *programs_, group, groupPlan, g, lighting);
         if (group.colorBy) drawn.drawer->colorBy(*group.colorBy);
         drawn.blend = material.blend;
         if (drawn.blend == Blend::alpha) drawn.sort = material.sort;
@@ -27,8 +27,8 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         drawn.scale = largestScale(groupPlan);
         groups_.push_back(std::move(drawn));
     }
-    makeLevels(context, shaderRoot, plan);
-    makeOrders(context, shaderRoot, plan, slabs);
+    makeLevels(context, plan);
+    makeOrders(context, plan, slabs);
 }
 
 bool DrawnGroups::blends(const Scene& scene, const Plan& plan) {
@@ -96,13 +96,13 @@ const DrawOrder* DrawnGroups::orderOf(size_t group) const {
 // ---- Levels of detail
 
 // Where compute shaders can cut the order.
-void DrawnGroups::makeLevels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan) {
+void DrawnGroups::makeLevels(gpu::Context& context, const Plan& plan) {
     for (Drawn& group : groups_) {
         GroupDrawer& drawer = *group.drawer;
         const std::vector<DrawStream>& streams = drawer.streams();
         if (group.blend != Blend::none || streams.size() < 2 || !context.info().computeShaders) continue;
-        group.levels = std::make_unique<LevelDraws>(context, shaderRoot, plan.groups[drawer.index()],
-                                                    drawer.index(), streams, double(group.scale));
+        group.levels = std::make_unique<LevelDraws>(context, plan.groups[drawer.index()], drawer.index(),
+                                                    streams, double(group.scale));
         drawer.addOrderDefines({"ORDERED", "SLAB_DRAWS"});
         drawer.addOrderDefines(group.levels->order().defines());
     }
@@ -116,8 +116,7 @@ static bool commute(const std::vector<Blend>& blends) {
                        [&](Blend blend) { return blend == blends.front() && blend != Blend::alpha; });
 }
 
-void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                             int slabs) {
+void DrawnGroups::makeOrders(gpu::Context& context, const Plan& plan, int slabs) {
     std::vector<Blend> blends;
     bool unordered = true;  // all ask for no order: they are drawn one after another, whole
     for (const Drawn& group : groups_) {
@@ -133,14 +132,14 @@ void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoo
         if (group.blend == Blend::none) continue;
         if (group.sort == DrawSort::none && !inSlabs) continue;
         GroupDrawer& drawer = *group.drawer;
-        group.order = std::make_unique<DrawOrder>(context, shaderRoot, plan.groups[drawer.index()],
-                                                  drawer.index(), group.sort, group.spreadFrames);
+        group.order = std::make_unique<DrawOrder>(context, plan.groups[drawer.index()], drawer.index(),
+                                                  group.sort, group.spreadFrames);
         drawer.addOrderDefines({"ORDERED"});
         if (inSlabs) drawer.addOrderDefines({group.order->exact() ? "SLAB_DRAWS" : "SLABS"});
         drawer.addOrderDefines(group.order->defines());
         if (inSlabs && group.order->exact())
-            group.slabDraws = std::make_unique<SlabDraws>(context, shaderRoot, slabs, *group.order,
-                                                          std::vector{drawer.streams()[0]});
+            group.slabDraws =
+                std::make_unique<SlabDraws>(context, slabs, *group.order, std::vector{drawer.streams()[0]});
         // The slabs are cut by the largest group that is sorted, else by the largest.
         const int weight = group.order->sorted() ? drawer.count() : 0;
         if (weight > most) {
@@ -148,7 +147,7 @@ void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoo
             slabsOf_ = i;
         }
     }
-    if (inSlabs) slabs_ = std::make_unique<DepthSlabs>(context, shaderRoot, slabs, *groups_[slabsOf_].order);
+    if (inSlabs) slabs_ = std::make_unique<DepthSlabs>(context, slabs, *groups_[slabsOf_].order);
 }
 
 bool DrawnGroups::orders() const {

@@ -14,8 +14,8 @@ namespace shoal {
 class DrawnGroups {
   public:
     // `slabs` of depth at most; `pixelsPerMeter`: about where the camera looks.
-    DrawnGroups(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
-                const Lighting& lighting, int slabs, double pixelsPerMeter);
+    DrawnGroups(gpu::Context& context, const Scene& scene, const Plan& plan, const Lighting& lighting,
+                int slabs, double pixelsPerMeter);
 
     static bool blends(const Scene& scene, const Plan& plan);  // whether a group of the plan does
     bool blends() const { return blends_; }
@@ -50,8 +50,8 @@ class DrawnGroups {
         float scale = 1;                       // of the largest molecule
     };
 
-    void makeLevels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan);
-    void makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, int slabs);
+    void makeLevels(gpu::Context& context, const Plan& plan);
+    void makeOrders(gpu::Context& context, const Plan& plan, int slabs);
 
     std::unique_ptr<gpu::Programs> programs_ = std::make_unique<gpu::Programs>();  // drawers point at it
     std::vector<Drawn> groups_;

@@ -4,11 +4,9 @@
 
 namespace shoal {
 
-GroupDrawer::GroupDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                         const GroupPlan& plan, size_t index)
+GroupDrawer::GroupDrawer(gpu::Context& context, gpu::Programs& programs, const GroupPlan& plan, size_t index)
     : context_(&context),
       programs_(&programs),
-      shaderRoot_(shaderRoot),
       name_(plan.name),
       corners_(context, plan.name.c_str()),
       reader_(plan, index),
@@ -64,7 +62,7 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
         wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
         if (scale_) wanted.defines.emplace_back("COLOR_BY");
     }
-    program = &programs_->get(*context_, shaderRoot_, wanted);
+    program = &programs_->get(*context_, wanted);
     return *program;
 }
 

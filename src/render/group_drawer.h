@@ -64,15 +64,14 @@ class GroupDrawer {
     using Variants = std::array<const gpu::Program*, StateView::forms>;
 
     // `programs`: shared by equal groups, borrowed.
-    GroupDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                const GroupPlan& plan, size_t index);
+    GroupDrawer(gpu::Context& context, gpu::Programs& programs, const GroupPlan& plan, size_t index);
     // In use, with what all groups have of the picture or the shadow map.
     const gpu::Program& beginLit(const StateView& state, const DrawInputs& inputs);
     const gpu::Program& beginDepth(const StateView& state, const ShadowMap& shadow);
 
     gpu::Context* context_;
     gpu::Programs* programs_;
-    std::string shaderRoot_, name_;
+    std::string name_;
     std::vector<DrawStream> streams_{1};
     gpu::VertexArray corners_;
     gpu::ProgramOptions litOptions_, depthOptions_;  // but for what the kind of the state adds
@@ -96,8 +95,8 @@ class GroupDrawer {
 class MoleculeDrawer : public GroupDrawer {
   public:
     // `plan` at `index` of the plan. Error: the image of the material is missing or not a PNG.
-    MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                   const Group& group, const GroupPlan& plan, size_t index, const Lighting& lighting);
+    MoleculeDrawer(gpu::Context& context, gpu::Programs& programs, const Group& group, const GroupPlan& plan,
+                   size_t index, const Lighting& lighting);
 
     const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
     const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
@@ -133,9 +132,8 @@ class MoleculeDrawer : public GroupDrawer {
 class ParticleDrawer : public GroupDrawer {
   public:
     // `pixelsPerMeter`: about where the camera looks. Error: loadImage's.
-    ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                   const ParticleType& type, const GroupPlan& plan, size_t index, const Lighting& lighting,
-                   double pixelsPerMeter);
+    ParticleDrawer(gpu::Context& context, gpu::Programs& programs, const ParticleType& type,
+                   const GroupPlan& plan, size_t index, const Lighting& lighting, double pixelsPerMeter);
 
     // Other looks, from the next picture on. False, and nothing changes: they need another image, order or
     // stream of corners.

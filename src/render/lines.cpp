@@ -23,8 +23,7 @@ glm::vec3 across(const glm::vec3& end, const glm::vec3& along, double width, con
 
 }  // namespace
 
-LineDrawer::LineDrawer(gpu::Context& context, std::string shaderRoot)
-    : context_(&context), shaderRoot_(std::move(shaderRoot)) {}
+LineDrawer::LineDrawer(gpu::Context& context) : context_(&context) {}
 
 void LineDrawer::hold(size_t lines) {
     if (lines <= room_) return;
@@ -51,7 +50,7 @@ void LineDrawer::draw(const std::vector<Line>& lines, double width, const DrawIn
     corners_.update(gpu::Traffic::Kind::parameters, 0, corners.data(), corners.size() * sizeof(Corner));
     if (!program_)
         program_ = gpu::Program(
-            *context_, shaderRoot_,
+            *context_,
             {"render/lines.vert", "render/lines.frag", inputs.lighting.toneDefines(), {}, "lines"});
     program_.use();
     program_.set("toClip", inputs.eye.toClip);
@@ -61,9 +60,7 @@ void LineDrawer::draw(const std::vector<Line>& lines, double width, const DrawIn
 
 // ---- Springs
 
-SpringLines::SpringLines(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                         const Plan& plan)
-    : context_(&context), shaderRoot_(shaderRoot) {
+SpringLines::SpringLines(gpu::Context& context, const Scene& scene, const Plan& plan) : context_(&context) {
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         const Molecule& molecule = scene.groups[group.index].molecule;
@@ -109,7 +106,7 @@ const gpu::Program& SpringLines::program(Drawn& group, const StateView& state, c
     for (const std::string& define : group.reader.defines(state))
         options.defines.push_back(define);
     if (group.scaled) options.defines.emplace_back("CONSTANTS");
-    program = gpu::Program(*context_, shaderRoot_, options);
+    program = gpu::Program(*context_, options);
     return program;
 }
 

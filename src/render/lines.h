@@ -21,7 +21,7 @@ struct Line {
 
 class LineDrawer {
   public:
-    LineDrawer(gpu::Context& context, std::string shaderRoot);
+    LineDrawer(gpu::Context& context);
 
     // `width`: pixels. 144 bytes a line cross the bus, as parameters.
     void draw(const std::vector<Line>& lines, double width, const DrawInputs& inputs);
@@ -30,7 +30,6 @@ class LineDrawer {
     void hold(size_t lines);
 
     gpu::Context* context_;
-    std::string shaderRoot_;
     gpu::Program program_;  // made when first drawn
     gpu::Buffer corners_;
     gpu::VertexArray array_;
@@ -42,7 +41,7 @@ class LineDrawer {
 class SpringLines {
   public:
     // Borrows nothing. `plan` of the scene.
-    SpringLines(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan);
+    SpringLines(gpu::Context& context, const Scene& scene, const Plan& plan);
 
     // Draws those of all molecules. `strainShown`: at which a colour is full, above 0; `width`: pixels.
     void draw(const StateView& state, const DrawInputs& inputs, double strainShown, double width);
@@ -66,7 +65,6 @@ class SpringLines {
     const gpu::Program& program(Drawn& group, const StateView& state, const DrawInputs& inputs);
 
     gpu::Context* context_;
-    std::string shaderRoot_;
     std::vector<Drawn> groups_;
 };
 

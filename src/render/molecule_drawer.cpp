@@ -25,10 +25,9 @@ static std::vector<MeshLevel> levelsOf(const Skin& skin, int molecules) {
     return levelsOf(positions, skinNormals(skin), cornersOf(skin.triangles));
 }
 
-MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                               const Group& group, const GroupPlan& plan, size_t index,
-                               const Lighting& lighting)
-    : GroupDrawer(context, shaderRoot, programs, plan, index),
+MoleculeDrawer::MoleculeDrawer(gpu::Context& context, gpu::Programs& programs, const Group& group,
+                               const GroupPlan& plan, size_t index, const Lighting& lighting)
+    : GroupDrawer(context, programs, plan, index),
       material_(group.molecule.material),
       points_(group.molecule.triangles.empty() && group.molecule.skin.empty()) {
     change(group);

@@ -13,7 +13,7 @@ static double luminance(const glm::dvec3& color) {
     return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const std::string& shaderRoot, const Scene& scene)
+AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
     : context_(&context), strength_(float(scene.sky.occlusion)) {
     if (!*this) return;
     const Sky& sky = scene.sky;
@@ -22,11 +22,9 @@ AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const std::string& sha
     // metres away.
     const double distance = std::max(glm::distance(scene.camera.eye, scene.camera.target), 1e-3);
     farthest_ = float(2 * reachByHeight * 2 * std::tan(scene.camera.fieldOfView / 2) * distance);
-    find_ = gpu::Program(context, shaderRoot,
-                         {"render/screen.vert", "render/occlusion.frag", {}, {}, "occlusion"});
-    blur_ =
-        gpu::Program(context, shaderRoot,
-                     {"render/screen.vert", "render/occlusion.frag", {"BLUR"}, {}, "occlusion, smoothed"});
+    find_ = gpu::Program(context, {"render/screen.vert", "render/occlusion.frag", {}, {}, "occlusion"});
+    blur_ = gpu::Program(
+        context, {"render/screen.vert", "render/occlusion.frag", {"BLUR"}, {}, "occlusion, smoothed"});
     empty_ = gpu::VertexArray(context, "no corners");
 }
 

@@ -15,7 +15,7 @@ namespace shoal {
 class AmbientOcclusion {
   public:
     // None where the scene's sky has no occlusion.
-    AmbientOcclusion(gpu::Context& context, const std::string& shaderRoot, const Scene& scene);
+    AmbientOcclusion(gpu::Context& context, const Scene& scene);
 
     void resize(int width, int height);  // of the picture
     // `sceneDepth`: of all that is not blended.

@@ -45,10 +45,10 @@ bool sameTiles(const std::optional<ParticleImage>& a, const std::optional<Partic
 
 }  // namespace
 
-ParticleDrawer::ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
-                               const ParticleType& type, const GroupPlan& plan, size_t index,
-                               const Lighting& lighting, double pixelsPerMeter)
-    : GroupDrawer(context, shaderRoot, programs, plan, index),
+ParticleDrawer::ParticleDrawer(gpu::Context& context, gpu::Programs& programs, const ParticleType& type,
+                               const GroupPlan& plan, size_t index, const Lighting& lighting,
+                               double pixelsPerMeter)
+    : GroupDrawer(context, programs, plan, index),
       type_(effective(type, pixelsPerMeter, context.info().maxPointSize)),
       pixelsPerMeter_(pixelsPerMeter),
       ages_(plan.needs.life) {

@@ -15,10 +15,9 @@ static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Sce
     return std::make_unique<ShadowMap>(context, size, box, towardsSun(scene.light));
 }
 
-static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const std::string& shaderRoot,
-                                             const Scene& scene) {
+static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene& scene) {
     if (!scene.water) return nullptr;
-    return std::make_unique<WaterLight>(context, shaderRoot, *scene.water);
+    return std::make_unique<WaterLight>(context, *scene.water);
 }
 
 static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
@@ -48,36 +47,32 @@ static std::unique_ptr<ShadowMap> makeWideMap(gpu::Context& context, const Scene
     return makeShadowMap(context, scene, models, options);
 }
 
-Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
-                   const RenderOptions& options)
-    : Renderer(context, shaderRoot, scene, plan, options, boundsOf(scene, plan)) {}
+Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options)
+    : Renderer(context, scene, plan, options, boundsOf(scene, plan)) {}
 
-Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
-                   const RenderOptions& options, const SceneBounds& bounds)
+Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options,
+                   const SceneBounds& bounds)
     : context_(&context),
       options_(options),
       shadow_(makeShadowMap(context, scene, bounds.casters, options)),
       wideShadow_(makeWideMap(context, scene, bounds.models, options, shadow_.get())),
-      water_(makeWater(context, shaderRoot, scene)),
+      water_(makeWater(context, scene)),
       lighting_(scene, bounds.crown, {shadow_.get(), wideShadow_.get()}, water_.get(),
                 DrawnGroups::blends(scene, plan) || SurfaceDrawer::blends(scene)),
-      surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
-      groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
-              pixelsPerMeterAt(scene.camera, options.height)),
-      beams_(context, shaderRoot, water_.get()),
-      occlusion_(context, shaderRoot, scene),
-      sky_(context, shaderRoot,
-           {"render/screen.vert", "render/sky.frag", skyDefines(lighting_, scene.sky), {}, "sky"}),
-      tone_(context, shaderRoot,
-            {"render/screen.vert",
-             "render/picture.frag",
-             pictureDefines(lighting_, beams_, occlusion_),
-             {},
-             "picture"}),
+      surfaces_(context, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
+      groups_(context, scene, plan, lighting_, options.slabs, pixelsPerMeterAt(scene.camera, options.height)),
+      beams_(context, water_.get()),
+      occlusion_(context, scene),
+      sky_(context, {"render/screen.vert", "render/sky.frag", skyDefines(lighting_, scene.sky), {}, "sky"}),
+      tone_(context, {"render/screen.vert",
+                      "render/picture.frag",
+                      pictureDefines(lighting_, beams_, occlusion_),
+                      {},
+                      "picture"}),
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
-    if (scene.sky.clouds > 0) drawClouds(shaderRoot, scene);
+    if (scene.sky.clouds > 0) drawClouds(scene);
     if (!wideShadow_) return;
     wideShadow_->begin();
     surfaces_.drawShadows(*wideShadow_, {});
@@ -163,13 +158,12 @@ void Renderer::drawShadows(const StateView& state, double time) {
     shadow_->end();
 }
 
-void Renderer::drawClouds(const std::string& shaderRoot, const Scene& scene) {
+void Renderer::drawClouds(const Scene& scene) {
     constexpr int size = 1536;  // texels a side
     clouds_ = gpu::Texture(*context_, gpu::Format::rgba16f, size, size, "clouds");
     clouds_.setLinear();
     const gpu::Framebuffer target(*context_, {&clouds_}, nullptr, "clouds");
-    const gpu::Program program(*context_, shaderRoot,
-                               {"render/screen.vert", "render/clouds.frag", {}, {}, "clouds"});
+    const gpu::Program program(*context_, {"render/screen.vert", "render/clouds.frag", {}, {}, "clouds"});
     target.bind();
     program.use();
     program.set("share", float(scene.sky.clouds));

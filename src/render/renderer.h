@@ -48,8 +48,7 @@ class Overlay {
 class Renderer {
   public:
     // `plan` with its packed start state. Error: an image of a material is missing or not a PNG.
-    Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
-             const RenderOptions& options = {});
+    Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options = {});
 
     // Error: larger than the context allows.
     void resize(int width, int height);
@@ -84,10 +83,10 @@ class Renderer {
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
-    Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
-             const RenderOptions& options, const SceneBounds& bounds);
+    Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options,
+             const SceneBounds& bounds);
     void drawShadows(const StateView& state, double time);
-    void drawClouds(const std::string& shaderRoot, const Scene& scene);
+    void drawClouds(const Scene& scene);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
     void drawPicture(const Eye& eye, double exposure);

@@ -203,8 +203,8 @@ SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Mode
     return drawn;
 }
 
-SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                             const Lighting& lighting, const ShadowMap* shadow, bool grid) {
+SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
+                             const ShadowMap* shadow, bool grid) {
     for (const Model& model : scene.models) {
         if (!model.draw || model.mesh.triangles.empty()) continue;
         Drawn drawn = drawnModel(context, model);
@@ -245,7 +245,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         drawn.looks.push_back(look);
         add(context, mesh, std::move(drawn), collider.name.c_str());
     }
-    choosePrograms(context, shaderRoot, lighting, shadow != nullptr, grid);
+    choosePrograms(context, lighting, shadow != nullptr, grid);
 }
 
 void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label) {
@@ -275,8 +275,7 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
 }
 
 // A program for each set of images that a material has.
-void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& shaderRoot,
-                                   const Lighting& lighting, bool shadows, bool grid) {
+void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighting, bool shadows, bool grid) {
     for (Drawn& surface : surfaces_) {
         for (Look& look : surface.looks) {
             const SurfaceMaterial& material = look.material;
@@ -296,7 +295,7 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& sha
             define(cutOut(material), "CUT");
             define(refracting(material), "REFRACTS");
             if (surface.plane) lit.label = "planes";
-            look.lit = &programs_.get(context, shaderRoot, lit);
+            look.lit = &programs_.get(context, lit);
             if (surface.plane) {
                 look.lit->use();
                 look.lit->set("grid", int(grid));
@@ -305,7 +304,7 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& sha
             gpu::ProgramOptions depth{
                 "render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"};
             if (cutOut(material)) depth.defines.insert(depth.defines.end(), {"IMAGES", "CUT"});
-            look.depth = &programs_.get(context, shaderRoot, depth);
+            look.depth = &programs_.get(context, depth);
         }
     }
 }

@@ -19,8 +19,8 @@ struct SurfaceMesh;
 class SurfaceDrawer {
   public:
     // `grid`: planes show a metre grid.
-    SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                  const Lighting& lighting, const ShadowMap* shadow, bool grid);
+    SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
+                  const ShadowMap* shadow, bool grid);
 
     static bool blends(const Scene& scene);  // whether a model has a part that is blended with what is behind
     bool blends() const { return blends_; }
@@ -61,8 +61,7 @@ class SurfaceDrawer {
 
     static Drawn drawnModel(gpu::Context& context, const Model& model);
     void add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label);
-    void choosePrograms(gpu::Context& context, const std::string& shaderRoot, const Lighting& lighting,
-                        bool shadows, bool grid);
+    void choosePrograms(gpu::Context& context, const Lighting& lighting, bool shadows, bool grid);
     void submit(const Drawn& surface, const Look& look) const;
     void drawLook(const Drawn& surface, const Look& look, const Eye& eye, const Lighting& lighting,
                   double time) const;

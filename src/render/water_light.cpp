@@ -43,14 +43,13 @@ double frequencyOf(const glm::dvec2& whole, const Water& water) {
 
 }  // namespace
 
-WaterLight::WaterLight(gpu::Context& context, const std::string& shaderRoot, const Water& water)
+WaterLight::WaterLight(gpu::Context& context, const Water& water)
     : water_(water),
-      program_(context, shaderRoot,
-               {"water/caustics.vert",
-                "water/caustics.frag",
-                {concat("CELLS ", cells), concat("MARGIN ", margin), concat("TEXELS ", texels)},
-                {},
-                "caustics"}),
+      program_(context, {"water/caustics.vert",
+                         "water/caustics.frag",
+                         {concat("CELLS ", cells), concat("MARGIN ", margin), concat("TEXELS ", texels)},
+                         {},
+                         "caustics"}),
       grid_(context, "caustics"),
       caustics_(context, gpu::Format::rgba16f, texels, texels, "caustics"),
       target_(context, {&caustics_}, nullptr, "caustics") {
@@ -113,10 +112,10 @@ static constexpr int smaller = 4;                // than the picture, along a si
 static constexpr double longest = 60;            // m
 static constexpr double leastExtinction = 0.02;  // 1/m: what is clearer sends beams no further than this
 
-WaterBeams::WaterBeams(gpu::Context& context, const std::string& shaderRoot, const WaterLight* water)
+WaterBeams::WaterBeams(gpu::Context& context, const WaterLight* water)
     : context_(&context), water_(water != nullptr && water->water().rays > 0 ? water : nullptr) {
     if (!water_) return;
-    program_ = gpu::Program(context, shaderRoot, {"render/screen.vert", "water/rays.frag", {}, {}, "beams"});
+    program_ = gpu::Program(context, {"render/screen.vert", "water/rays.frag", {}, {}, "beams"});
     empty_ = gpu::VertexArray(context, "no corners");
 }
 

@@ -24,7 +24,7 @@ class WaterLight {
   public:
     static constexpr int waveCount = 14;  // shaders/water/waves.glsl
 
-    WaterLight(gpu::Context& context, const std::string& shaderRoot, const Water& water);
+    WaterLight(gpu::Context& context, const Water& water);
 
     // The net at a time, s. Leaves its own framebuffer bound.
     void draw(double time);
@@ -49,7 +49,7 @@ class WaterLight {
 class WaterBeams {
   public:
     // None where the water has no rays.
-    WaterBeams(gpu::Context& context, const std::string& shaderRoot, const WaterLight* water);
+    WaterBeams(gpu::Context& context, const WaterLight* water);
 
     void resize(int width, int height);  // of the picture
     // `sceneDepth`: of all that is not blended.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/cache_folder.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -39,6 +40,13 @@ std::string shaderRoot() {
     }
     throw Error("the shaders are missing; looked in" + tried +
                 "\n  set SHOAL_DATA to the folder that holds them");
+}
+
+gpu::ContextOptions contextOptions() {
+    gpu::ContextOptions out;
+    out.shaders = shaderRoot();
+    out.cache = cacheFolder();
+    return out;
 }
 
 std::string moleculeFolder() {

@@ -60,16 +60,14 @@ void BirthPasses::makeOrder() {
         visit(visit, g);
 }
 
-const Program& BirthPasses::makeSpawn(gpu::Context& context, const std::string& shaderRoot,
-                                      const Living& living, std::optional<int> targets,
-                                      gpu::ProgramCache* cache) {
+const Program& BirthPasses::makeSpawn(gpu::Context& context, const Living& living,
+                                      std::optional<int> targets) {
     KernelOptions kernel;
     kernel.work = KernelOptions::Work::births;
     kernel.targets = targets;
     kernel.software = context.info().software;
     gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
-    program.cache = cache;
-    return programs_.get(context, shaderRoot, program);
+    return programs_.get(context, program);
 }
 
 void BirthPasses::setAge(const Program& step, const Living& living) const {

@@ -71,8 +71,7 @@ class BirthPasses {
     ~BirthPasses() = default;
 
     // Returns the program of a group's births; `targets`: as of KernelOptions. Error: the driver refuses it.
-    const gpu::Program& makeSpawn(gpu::Context& context, const std::string& shaderRoot, const Living& living,
-                                  std::optional<int> targets, gpu::ProgramCache* cache);
+    const gpu::Program& makeSpawn(gpu::Context& context, const Living& living, std::optional<int> targets);
 
     // All that is scheduled between the ends of the frame, with places from the allocators on the CPU.
     Newborns schedule(Living& living, const Frame& frame);

@@ -21,17 +21,16 @@ static void checkSource(const gpu::ContextInfo& info, const GroupPlan& group, co
 // Storage offsets are multiples of so many words on any device.
 constexpr size_t wordsApart = 64;
 
-Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-               const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords,
-               gpu::ProgramCache* cache)
+Births::Births(gpu::Context& context, const Plan& plan, const Tables& tables,
+               const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords)
     : BirthPasses(plan, wordsApart),
       context_(&context),
       tables_(&tables),
       buffers_(plan.groups.size()),
-      lists_(context, shaderRoot, plan.groups.size(), size_t(mostPlaces(plan)), cache),
+      lists_(context, plan.groups.size(), size_t(mostPlaces(plan))),
       listWords_(std::max(listWords / wordsApart, size_t(1)) * wordsApart) {
     for (const auto& living : groups_)
-        if (living) make(*living, shaderRoot, state[living->group], together[living->group], cache);
+        if (living) make(*living, state[living->group], together[living->group]);
     const auto block = size_t(context.info().maxStorageBlockBytes);
     if (diedWords_ * sizeof(uint32_t) > block)
         throw Error(
@@ -42,8 +41,7 @@ Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan&
         died_ = Buffer(context, Buffer::Use::storage, nullptr, diedWords_ * sizeof(uint32_t), "deaths");
 }
 
-void Births::make(const Living& living, const std::string& shaderRoot, const GroupBuffers& state,
-                  int together, gpu::ProgramCache* cache) {
+void Births::make(const Living& living, const GroupBuffers& state, int together) {
     const GroupPlan& group = *living.plan;
     checkSource(context_->info(), group, state);
     Buffers& buffers = buffers_[living.group];
@@ -71,7 +69,7 @@ void Births::make(const Living& living, const std::string& shaderRoot, const Gro
             Buffer(*context_, Buffer::Use::storage, nullptr, places * sizeof(uint32_t), "places");
     for (size_t first = 0; first < places; first += listWords_)
         buffers.ranges.push_back({first, std::min(listWords_, places - first)});
-    buffers.spawn = &makeSpawn(*context_, shaderRoot, living, {}, cache);
+    buffers.spawn = &makeSpawn(*context_, living, {});
 }
 
 void Births::bindStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {

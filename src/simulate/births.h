@@ -20,9 +20,8 @@ class Births : public BirthPasses {
     // a workgroup of its step takes. `listWords`: the words of a list that one dispatch may read. Error,
     // located at the group: others are born from its deaths, and its state is in several parts; a storage
     // block does not hold a bit for each of its places.
-    Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-           const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords,
-           gpu::ProgramCache* cache);
+    Births(gpu::Context& context, const Plan& plan, const Tables& tables,
+           const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords);
 
     // The step of a part of a group with life: what growOlder() needs, and as many workgroups as there are
     // lives.
@@ -46,8 +45,7 @@ class Births : public BirthPasses {
         PlaceSet set;
         const gpu::Program* spawn = nullptr;  // none: nothing is born
     };
-    void make(const Living& living, const std::string& shaderRoot, const GroupBuffers& state, int together,
-              gpu::ProgramCache* cache);
+    void make(const Living& living, const GroupBuffers& state, int together);
     void countPlaces(const Living& living, int scheduled, bool allocates);
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
     void bindBirths(const Living& living, std::vector<GroupBuffers>& state) const;

@@ -16,9 +16,6 @@
 
 namespace shoal {
 
-namespace gpu {
-class ProgramCache;
-}
 struct Frame;
 struct StateView;
 
@@ -29,8 +26,7 @@ struct SimulationOptions {
     Path path = Path::automatic;
     bool inPlace = false;            // fused: half the memory of the state
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
-    gpu::ProgramCache* cache = nullptr;
-    bool watchdog = true;  // simulate/watchdog.h
+    bool watchdog = true;            // simulate/watchdog.h
     // Fused, for tests: contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context
     // is; both give the same bits. And as on a GPU what ran away is noticed late, as late as it may be.
     std::optional<bool> asOnGpu = std::nullopt;

@@ -39,10 +39,10 @@ class Fragments::Touched : public ContactState {
     Fragments* path_;
 };
 
-Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                     const Tables& tables, const SimulationOptions& options)
+Fragments::Fragments(gpu::Context& context, const Plan& plan, const Tables& tables,
+                     const SimulationOptions& options)
     : plan_(&plan), noAttributes_(context, "fused step") {
-    const KernelSource source{&context, shaderRoot, &plan, &tables, options.cache};
+    const KernelSource source{&context, &plan, &tables};
     const int targets = context.info().maxColorAttachments;
     if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
     KernelOptions kernel;
@@ -65,13 +65,10 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
     }
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
-        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, *contactState_,
-                                                    options.cache);
+        contact_ = std::make_unique<TextureContact>(context, plan, tables, *contactState_);
     }
-    if (plan.school.any())
-        school_ = std::make_unique<TextureSchool>(context, shaderRoot, plan, tables, options.cache);
-    if (plan.hasLife())
-        births_ = std::make_unique<TextureBirths>(context, shaderRoot, plan, tables, targets, options.cache);
+    if (plan.school.any()) school_ = std::make_unique<TextureSchool>(context, plan, tables);
+    if (plan.hasLife()) births_ = std::make_unique<TextureBirths>(context, plan, tables, targets);
 }
 
 void Fragments::draw(const Program& program, size_t group, std::span<const LayerDraw> draws, int molecules,

@@ -24,7 +24,7 @@ namespace shoal {
 class Fragments : public ExecutionPath {
   public:
     // Borrows the plan and the tables. Error: out of memory; the driver refuses a kernel.
-    Fragments(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+    Fragments(gpu::Context& context, const Plan& plan, const Tables& tables,
               const SimulationOptions& options);
 
     void step(const Frame& frame, gpu::PassTimers& timers) override;

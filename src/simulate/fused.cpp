@@ -25,11 +25,10 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
     return out;
 }
 
-Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-             const SimulationOptions& options)
+Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options)
     : plan_(&plan), drawn_(options.drawn) {
     const gpu::ContextInfo& info = context.info();
-    const KernelSource source{&context, shaderRoot, &plan, &tables, options.cache};
+    const KernelSource source{&context, &plan, &tables};
     // with contact, births and schools other passes change the state as well
     const bool ahead = options.watchdog && options.asOnGpu.value_or(!info.software) && info.atLeast(4, 4) &&
                        !plan.contact.any() && !plan.hasLife() && !plan.school.any();
@@ -64,13 +63,10 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
                                : nullptr);
     }
     if (plan.hasLife())
-        births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, state, together,
-                                           atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)),
-                                           options.cache);
-    if (plan.contact.any())
-        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
-    if (plan.school.any())
-        school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
+        births_ = std::make_unique<Births>(context, plan, tables, state, together,
+                                           atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)));
+    if (plan.contact.any()) contact_ = std::make_unique<MoleculeContact>(context, plan, tables, options);
+    if (plan.school.any()) school_ = std::make_unique<Schooling>(context, plan, tables);
 }
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part,

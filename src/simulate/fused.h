@@ -24,8 +24,7 @@ class Fused : public ExecutionPath {
   public:
     // Borrows the plan and the tables. Error: out of memory; the driver refuses a kernel; a group's molecules
     // cannot be spread as demanded.
-    Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-          const SimulationOptions& options);
+    Fused(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options);
 
     void step(const Frame& frame, gpu::PassTimers& timers) override;
     void computeNormals(gpu::PassTimers& timers) override;

@@ -36,11 +36,9 @@ GroupKernel::GroupKernel(const KernelSource& source, size_t group, const KernelO
 
 const Program& GroupKernel::make(const KernelOptions& options) {
     gpu::ProgramOptions program = kernelProgram(*source_.plan, group_, options);
-    program.cache = source_.cache;
     if (options.factors.empty())
-        return programs_->get(*source_.context, source_.shaderRoot, program,
-                              bytesOf(group().colliderParameters));
-    own_ = std::make_unique<Program>(*source_.context, source_.shaderRoot, program);
+        return programs_->get(*source_.context, program, bytesOf(group().colliderParameters));
+    own_ = std::make_unique<Program>(*source_.context, program);
     return *own_;
 }
 

@@ -25,10 +25,8 @@ constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, springs 
 // All kernels of a path borrow these.
 struct KernelSource {
     gpu::Context* context;
-    std::string shaderRoot;
     const Plan* plan;
     const Tables* tables;
-    gpu::ProgramCache* cache;
 };
 
 class GroupKernel {

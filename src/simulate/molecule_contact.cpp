@@ -78,8 +78,8 @@ MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel,
     : buffer(context, gpu::Buffer::Use::storage, data, texels * wordsOf(texel) * sizeof(uint32_t), label),
       texture(context, buffer, texel, label) {}
 
-MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                                 const Tables& tables, const SimulationOptions& options)
+MoleculeContact::MoleculeContact(gpu::Context& context, const Plan& plan, const Tables& tables,
+                                 const SimulationOptions& options)
     : ContactPasses(plan, tables, true),
       context_((checkLimits(context.info(), plan.contact), &context)),
       counted_(options.asOnGpu.value_or(!context.info().software)),
@@ -115,9 +115,9 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     makeMemory();
     makeExclusions();
     makeMaterials();
-    makePrograms(shaderRoot, options.cache);
+    makePrograms();
     for (const ContactGroup& group : contact_->groups)
-        makeGroup(group, shaderRoot, options.cache);
+        makeGroup(group);
 }
 
 void MoleculeContact::makeMemory() {
@@ -165,17 +165,16 @@ void MoleculeContact::makeMemory() {
     if (spreads_) contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
 }
 
-void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
+void MoleculeContact::makePrograms() {
     std::vector<std::string> common = defines(listLength_);
     if (rests()) common.emplace_back("RESTING");
     gpu::ProgramOptions options;
-    options.cache = cache;
     const auto make = [&](const char* file, const char* define = nullptr) {
         options.compute = concat("contact/", file, ".comp");
         options.label = concat("contact ", file);
         options.defines = common;
         if (define) options.defines.emplace_back(define);
-        return Program(*context_, shaderRoot, options);
+        return Program(*context_, options);
     };
     if (counted_) {
         addCounting(common);
@@ -183,7 +182,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         starts_ = make("starts");
         collect_ = make("members");
     } else {
-        sort_.emplace(*context_, shaderRoot, padded_, cache);
+        sort_.emplace(*context_, padded_);
     }
     order_ = make("order");
     find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
@@ -204,8 +203,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
     settle_ = make("settle");
 }
 
-void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& shaderRoot,
-                                gpu::ProgramCache* cache) {
+void MoleculeContact::makeGroup(const ContactGroup& group) {
     const GroupPlan& plan = plan_->groups[group.group];
     std::vector<std::string> common = plan.layout().defines();
     common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf),
@@ -224,9 +222,8 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
         options.label = concat("contact ", file, " of ", plan.name);
         options.defines = common;
         if (define) options.defines.emplace_back(define);
-        options.cache = cache;
         options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
-        return Program(*context_, shaderRoot, options);
+        return Program(*context_, options);
     };
     GroupPrograms& out = groups_.emplace_back();
     out.spheres = make("spheres", walls_ && plan.needs.collide ? "WALLS" : nullptr);

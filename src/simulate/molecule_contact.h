@@ -37,8 +37,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
   public:
     // Borrows the plan and the tables. Error: more spheres than the context can hold, with how many it can;
     // out of memory.
-    MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                    const Tables& tables, const SimulationOptions& options);
+    MoleculeContact(gpu::Context& context, const Plan& plan, const Tables& tables,
+                    const SimulationOptions& options);
 
     // Lists are as long as the plan's, or as the context has room for, but no shorter than this: as many as
     // touch a sphere of their size at once without overlap.
@@ -94,8 +94,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     };
 
     void makeMemory();
-    void makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache);
-    void makeGroup(const ContactGroup& group, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makePrograms();
+    void makeGroup(const ContactGroup& group);
     void makeExclusions();
     void makeMaterials();
 

@@ -49,8 +49,7 @@ std::string setOnceFor(const GroupPlan& group) {
 // How contact reads the textures of passes, a texel a vertex, and changes them.
 class VertexTexels : public ContactState {
   public:
-    VertexTexels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-                 TextureState& state, gpu::ProgramCache* cache)
+    VertexTexels(gpu::Context& context, const Plan& plan, const Tables& tables, TextureState& state)
         : plan_(&plan), tables_(&tables), state_(&state), noAttributes_(context, "contact") {
         apply_.resize(plan.groups.size());
         for (const ContactGroup& contact : plan.contact.groups) {
@@ -62,8 +61,7 @@ class VertexTexels : public ContactState {
             if (group.needs.pins) options.defines.emplace_back("PINS");
             if (group.needs.release) options.defines.emplace_back("RELEASE");
             options.label = concat("contact apply of ", group.name);
-            options.cache = cache;
-            apply_[contact.group] = Program(context, shaderRoot, options);
+            apply_[contact.group] = Program(context, options);
         }
     }
     bool fused() const override { return false; }
@@ -101,8 +99,8 @@ class VertexTexels : public ContactState {
 
 }  // namespace
 
-PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                   const Tables& tables, const SimulationOptions& options)
+PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables,
+                   const SimulationOptions& options)
     : state(context, plan),
       plan_(&plan),
       tables_(&tables),
@@ -125,17 +123,15 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
                             {"generated/colliders.glsl", plan.collideSource}};
         wanted.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
-        wanted.cache = options.cache;
-        program = &made_.get(context, shaderRoot, wanted, setOnceFor(plan.groups[pass.group]));
+        program = &made_.get(context, wanted, setOnceFor(plan.groups[pass.group]));
         program->use();
         if (program->uses("colliderParameters"))
             program->set("colliderParameters",
                          std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
     if (!plan.contact.any()) return;
-    contactState_ = std::make_unique<VertexTexels>(context, shaderRoot, plan, tables, state, options.cache);
-    contact_ =
-        std::make_unique<TextureContact>(context, shaderRoot, plan, tables, *contactState_, options.cache);
+    contactState_ = std::make_unique<VertexTexels>(context, plan, tables, state);
+    contact_ = std::make_unique<TextureContact>(context, plan, tables, *contactState_);
 }
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {

@@ -25,8 +25,7 @@ namespace shoal {
 class PingPong : public ExecutionPath {
   public:
     // Borrows the plan and the tables.
-    PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-             const SimulationOptions& options);
+    PingPong(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options);
 
     void step(const Frame& frame, gpu::PassTimers& timers) override;
     void computeNormals(gpu::PassTimers& timers) override;

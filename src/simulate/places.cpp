@@ -101,16 +101,14 @@ void settleBirths() {
     gpu::barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
 }
 
-PlaceLists::PlaceLists(gpu::Context& context, const std::string& shaderRoot, size_t groups, size_t mostPlaces,
-                       gpu::ProgramCache* cache) {
+PlaceLists::PlaceLists(gpu::Context& context, size_t groups, size_t mostPlaces) {
     const auto program = [&](const char* file, bool deaths, int lanes) {
         gpu::ProgramOptions options;
         options.compute = concat("particles/", file, ".comp");
         options.label = concat(file, deaths ? " of deaths" : " of places");
         options.defines = {concat("LANES ", lanes), concat("WORDS ", wordsOfLane)};
         if (deaths) options.defines.emplace_back("DEATHS");
-        options.cache = cache;
-        return Program(context, shaderRoot, options);
+        return Program(context, options);
     };
     count_ = program("bits_count", false, groupLanes);
     scanPlaces_ = program("bits_scan", false, scanLanes);

@@ -86,8 +86,7 @@ struct ListRange {
 class PlaceLists {
   public:
     // For groups of a plan, of up to so many places.
-    PlaceLists(gpu::Context& context, const std::string& shaderRoot, size_t groups, size_t mostPlaces,
-               gpu::ProgramCache* cache);
+    PlaceLists(gpu::Context& context, size_t groups, size_t mostPlaces);
 
     static size_t bytesOf(size_t places);  // of their bits
 

@@ -28,11 +28,9 @@ size_t mostOf(const gpu::ContextInfo& info) {
 
 }  // namespace
 
-Schooling::Schooling(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                     const Tables& tables, gpu::ProgramCache* cache)
+Schooling::Schooling(gpu::Context& context, const Plan& plan, const Tables& tables)
     : SchoolPasses(context, plan, tables, {}),
-      sort_((checkCount(plan.school, mostOf(context.info())), context), shaderRoot,
-            size_t(plan.school.entries), cache) {
+      sort_((checkCount(plan.school, mostOf(context.info())), context), size_t(plan.school.entries)) {
     const auto buffer = [&](size_t words, const char* label) {
         return gpu::Buffer(context, gpu::Buffer::Use::storage, nullptr, words * 4, label);
     };
@@ -50,7 +48,7 @@ Schooling::Schooling(gpu::Context& context, const std::string& shaderRoot, const
     startsRead_ = read(starts_, Texel::uint1, "school cells");
     placesRead_ = read(places_, Texel::float4, "school places");
     velocitiesRead_ = read(velocities_, Texel::float4, "school velocities");
-    makePrograms(shaderRoot, cache);
+    makePrograms();
 }
 
 void Schooling::findBodies(const std::vector<GroupBuffers>& state) {

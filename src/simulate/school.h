@@ -15,8 +15,7 @@ namespace shoal {
 class Schooling : public SchoolPasses {
   public:
     // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
-    Schooling(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-              gpu::ProgramCache* cache);
+    Schooling(gpu::Context& context, const Plan& plan, const Tables& tables);
 
     // Steers the molecules of `state` for this frame.
     void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);

@@ -54,35 +54,30 @@ gpu::ProgramOptions SchoolPasses::optionsOf(const char* file, const std::string&
     return out;
 }
 
-void SchoolPasses::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
+void SchoolPasses::makePrograms() {
     gpu::ProgramOptions keys = optionsOf("keys", "school keys", nullptr);
     keys.defines.push_back(concat("GRIDS ", school_->grids.size()));
-    keys.cache = cache;
-    keys_ = Program(*context_, shaderRoot, keys);
+    keys_ = Program(*context_, keys);
     gpu::ProgramOptions order = optionsOf("order", "school order", nullptr);
-    order.cache = cache;
-    order_ = Program(*context_, shaderRoot, order);
+    order_ = Program(*context_, order);
     for (const SchoolBodies& bodies : school_->bodies) {
         const GroupPlan& group = plan_->groups[bodies.group];
         gpu::ProgramOptions body = optionsOf("body", concat("bodies of ", group.name), &group);
         body.generated = {{"generated/body.glsl", bodies.text}};
-        body.cache = cache;
-        bodyPrograms_.push_back(&programs_.get(*context_, shaderRoot, body));
+        bodyPrograms_.push_back(&programs_.get(*context_, body));
     }
     for (const SchoolMember& member : school_->members)
-        makeSteer(member, shaderRoot, cache);
+        makeSteer(member);
 }
 
-void SchoolPasses::makeSteer(const SchoolMember& member, const std::string& shaderRoot,
-                             gpu::ProgramCache* cache) {
+void SchoolPasses::makeSteer(const SchoolMember& member) {
     const GroupPlan& group = plan_->groups[member.group];
     gpu::ProgramOptions options = optionsOf("steer", concat("steering of ", group.name), &group);
-    options.cache = cache;
     options.defines.push_back(concat("TARGETS ", member.targetGrids.size()));
     options.defines.push_back(concat("CLOCK_PERIOD float(", clockPeriodOf(group), ")"));
     if (group.needs.avoids) options.defines.push_back("WALLS");
     options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
-    members_.push_back({&programs_.get(*context_, shaderRoot, options), member.school});
+    members_.push_back({&programs_.get(*context_, options), member.school});
 }
 
 // m: what is looked for within a radius needs cells as wide.

@@ -34,7 +34,7 @@ class SchoolPasses {
     // numbered; without it they are compute shaders and buffers.
     SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, std::optional<int> rowBits);
 
-    void makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makePrograms();
     // Error, located at the first school: more than `most` molecules or entries.
     static void checkCount(const SchoolPlan& school, size_t most);
     // Return a program, in use, with its numbers.
@@ -57,7 +57,7 @@ class SchoolPasses {
         School school;
     };
 
-    void makeSteer(const SchoolMember& member, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makeSteer(const SchoolMember& member);
     void setRules(size_t member, const Frame& frame) const;
 
     const Tables* tables_;

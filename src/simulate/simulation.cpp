@@ -16,15 +16,14 @@ static Tables::Form tableFormOf(Path path) {
     return path == Path::fused ? Tables::Form::buffer : Tables::Form::texture;
 }
 
-Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
-                       const SimulationOptions& options)
+Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions& options)
     : context_(&context),
       plan_(std::move(plan)),
       choice_(choosePath(plan_, options.path, limitsOf(context.info()))),
       tables_(context, plan_, tableFormOf(choice_.path)),
       options_(options),
       timers_(context, options.timing),
-      path_(makePath(shaderRoot)) {
+      path_(makePath()) {
     if (plan_.contact.settings.rest && choice_.path != Path::fused)
         warnings_.push_back(
             {{}, "molecules come to rest in compute shaders alone: \"rest\" changes nothing here"});
@@ -32,23 +31,21 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
     restart();
 }
 
-std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoot) {
-    const auto fused = [&] {
-        return std::make_unique<Fused>(*context_, shaderRoot, plan_, tables_, options_);
-    };
+std::unique_ptr<ExecutionPath> Simulation::makePath() {
+    const auto fused = [&] { return std::make_unique<Fused>(*context_, plan_, tables_, options_); };
     const auto fragments = [&] {
         if (options_.inPlace || options_.lanes == Lanes::vertex)
             warnings_.push_back({{},
                                  "one side of the state, and a lane for each vertex, need compute shaders: "
                                  "they change nothing here"});
-        return std::make_unique<Fragments>(*context_, shaderRoot, plan_, tables_, options_);
+        return std::make_unique<Fragments>(*context_, plan_, tables_, options_);
     };
     if (choice_.path == Path::fragments) return fragments();
     if (choice_.path == Path::pingPong) {
         if (options_.inPlace || options_.lanes != Lanes::automatic)
             warnings_.push_back(
                 {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
-        return std::make_unique<PingPong>(*context_, shaderRoot, plan_, tables_, options_);
+        return std::make_unique<PingPong>(*context_, plan_, tables_, options_);
     }
     if (options_.path != Path::automatic) return fused();
     // Takes what works: two sides, else one, else fragments.

@@ -45,8 +45,7 @@ struct SavedState {
 class Simulation {
   public:
     // Error: choosePath's; out of memory; the driver refuses a shader.
-    Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
-               const SimulationOptions& options = {});
+    Simulation(gpu::Context& context, Plan plan, const SimulationOptions& options = {});
     Simulation(const Simulation&) = delete;  // the path refers to the plan and the tables
     Simulation& operator=(const Simulation&) = delete;
 
@@ -102,7 +101,7 @@ class Simulation {
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits
 
   private:
-    std::unique_ptr<ExecutionPath> makePath(const std::string& shaderRoot);
+    std::unique_ptr<ExecutionPath> makePath();
     void goOn(double time, int frames, double step);
     void stopWhereItRanAway(bool waits);
     bool forcesJump() const;

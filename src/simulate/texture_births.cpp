@@ -36,28 +36,26 @@ void upload(const std::vector<uint32_t>& words, Texture& list) {
 
 }  // namespace
 
-TextureBirths::TextureBirths(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                             const Tables& tables, int targets, gpu::ProgramCache* cache)
+TextureBirths::TextureBirths(gpu::Context& context, const Plan& plan, const Tables& tables, int targets)
     : BirthPasses(plan, stateWidth),
       context_(&context),
       tables_(&tables),
       own_(plan.groups.size()),
-      places_(context, shaderRoot, plan, cache),
+      places_(context, plan),
       died_(listOf(context, diedWords_, "deaths")),
       newDied_(context, {&died_}, nullptr, "deaths"),
       noAttributes_(context, "births") {
     for (const auto& living : groups_)
-        if (living && living->emits()) make(*living, shaderRoot, targets, cache);
+        if (living && living->emits()) make(*living, targets);
 }
 
-void TextureBirths::make(const Living& living, const std::string& shaderRoot, int targets,
-                         gpu::ProgramCache* cache) {
+void TextureBirths::make(const Living& living, int targets) {
     Own& own = own_[living.group];
     if (living.listed()) {
         own.places = listOf(*context_, size_t(living.count()), "places");
         own.newPlaces = Framebuffer(*context_, {&own.places}, nullptr, "places");
     }
-    own.spawn = &makeSpawn(*context_, shaderRoot, living, targets, cache);
+    own.spawn = &makeSpawn(*context_, living, targets);
 }
 
 int TextureBirths::bindStep(const Program& program, size_t group) const {

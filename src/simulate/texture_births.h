@@ -20,8 +20,7 @@ namespace shoal {
 class TextureBirths : public BirthPasses {
   public:
     // Borrows all but the string. A draw writes at most so many `targets`. Error: out of memory.
-    TextureBirths(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                  const Tables& tables, int targets, gpu::ProgramCache* cache);
+    TextureBirths(gpu::Context& context, const Plan& plan, const Tables& tables, int targets);
 
     // The step of a group with life: what growOlder() needs, and the places that it covers, as far as the CPU
     // knows. Returns how many vertices its draw has.
@@ -42,7 +41,7 @@ class TextureBirths : public BirthPasses {
         gpu::Framebuffer newPlaces;
         const gpu::Program* spawn = nullptr;
     };
-    void make(const Living& living, const std::string& shaderRoot, int targets, gpu::ProgramCache* cache);
+    void make(const Living& living, int targets);
     void listDeaths(const std::vector<GroupLayers>& state);
     // Returns how many may be born, at most.
     int allocate(const Living& living, const Newborns& newborns, const GroupLayers& state);

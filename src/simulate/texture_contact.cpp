@@ -18,22 +18,22 @@ static_assert(TextureContact::longestList % 4 == 0);
 
 }  // namespace
 
-TextureContact::TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                               const Tables& tables, const ContactState& state, gpu::ProgramCache* cache)
+TextureContact::TextureContact(gpu::Context& context, const Plan& plan, const Tables& tables,
+                               const ContactState& state)
     : ContactPasses(plan, tables, state.fused()),
       rowBits_(plan.contact.rowBits()),
-      sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
-            cache, NetworkSort::Ties::byIndex),
+      sort_(context, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
+            NetworkSort::Ties::byIndex),
       targets_(context),
       noAttributes_(context, "contact") {
     if (contact_->settings.search == ContactSearch::staggered)
-        staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
-                           2 << rowBits_, cache, NetworkSort::Ties::byIndex);
+        staggered_.emplace(context, NetworkSort::Kind::bitonic, size_t(contact_->spheres), 2 << rowBits_,
+                           NetworkSort::Ties::byIndex);
     makeTextures(context);
     makeTables(context);
-    makePrograms(context, shaderRoot, cache);
+    makePrograms(context);
     for (const ContactGroup& group : contact_->groups)
-        groups_.push_back(makeGroup(context, group, state, shaderRoot, cache));
+        groups_.push_back(makeGroup(context, group, state));
 }
 
 int TextureContact::rowsOf(int numbers) const {
@@ -116,22 +116,20 @@ void TextureContact::makeTables(gpu::Context& context) {
                       "contact groups");
 }
 
-void TextureContact::makePrograms(gpu::Context& context, const std::string& shaderRoot,
-                                  gpu::ProgramCache* cache) {
+void TextureContact::makePrograms(gpu::Context& context) {
     gpu::ProgramOptions options;
     options.vertex = "passes/fullscreen.vert";
     options.defines = defines(longestList);
     options.defines.insert(options.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_),
                                                    concat("ENTRIES_A_DRAW ", entriesADraw)});
     if (staggered_) options.defines.emplace_back("STAGGERED");
-    options.cache = cache;
     options.fragment = "sort/starts.frag";
     options.label = "contact starts";
-    starts_ = Program(context, shaderRoot, options);
+    starts_ = Program(context, options);
     const auto make = [&](const char* file) {
         options.fragment = concat("contact/", file, ".frag");
         options.label = concat("contact ", file);
-        return Program(context, shaderRoot, options);
+        return Program(context, options);
     };
     keys_ = make("keys");
     order_ = make("order");
@@ -150,8 +148,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
 }
 
 TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
-                                                  const ContactState& state, const std::string& shaderRoot,
-                                                  gpu::ProgramCache* cache) const {
+                                                  const ContactState& state) const {
     const GroupPlan& plan = plan_->groups[group.group];
     std::vector<std::string> common = state.defines(group.group);
     common.insert(common.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_),
@@ -171,9 +168,8 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
         options.fragment = concat("contact/", file, ".frag");
         options.defines = common;
         options.label = concat("contact ", file, " of ", plan.name);
-        options.cache = cache;
         options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
-        return Program(context, shaderRoot, options);
+        return Program(context, options);
     };
     OfGroup out;
     out.spheres = make("spheres");

@@ -58,8 +58,7 @@ class TextureContact : public ContactPasses<ContactState> {
 
     // Borrows the plan and the tables; `state`: only for its defines. Blending, tests and masks are off in a
     // step. Error: out of memory; the driver refuses a shader.
-    TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                   const Tables& tables, const ContactState& state, gpu::ProgramCache* cache);
+    TextureContact(gpu::Context& context, const Plan& plan, const Tables& tables, const ContactState& state);
 
     // Binds to the step of a group of the plan what its contacts remember, if it has any.
     void bindLoads(const gpu::Program& program, int unit, size_t group) const;
@@ -75,14 +74,13 @@ class TextureContact : public ContactPasses<ContactState> {
     using Into = std::vector<gpu::ColorTarget>;
 
     void makeTextures(gpu::Context& context);
-    void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makePrograms(gpu::Context& context);
     // Holds what belongs to one group with contact.
     struct OfGroup {
         gpu::Program spheres, walls, effectiveSum, spread, gains;
         gpu::Texture shapes;
     };
-    OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state,
-                      const std::string& shaderRoot, gpu::ProgramCache* cache) const;
+    OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state) const;
     gpu::Texture table(gpu::Context& context, gpu::Format format, size_t texels, const void* data,
                        const char* label) const;
     void makeTables(gpu::Context& context);

@@ -28,8 +28,7 @@ int rowsOf(int places) {
 
 }  // namespace
 
-TexturePlaces::TexturePlaces(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                             gpu::ProgramCache* cache)
+TexturePlaces::TexturePlaces(gpu::Context& context, const Plan& plan)
     : context_(&context), noAttributes_(context, "places") {
     int rows = rowsOf(mostPlaces(plan));
     bits_ = Texture(context, Format::rg32ui, siblings, rows, "bits of places");
@@ -48,23 +47,22 @@ TexturePlaces::TexturePlaces(gpu::Context& context, const std::string& shaderRoo
     const std::vector<uint32_t> none(control::words);
     for (size_t g = 0; g < plan.groups.size(); ++g)
         writeControl(g, none);
-    makePrograms(shaderRoot, plan, cache);
+    makePrograms(plan);
 }
 
-void TexturePlaces::makePrograms(const std::string& shaderRoot, const Plan& plan, gpu::ProgramCache* cache) {
+void TexturePlaces::makePrograms(const Plan& plan) {
     const auto options = [&](const char* file, const char* label) {
         gpu::ProgramOptions out;
         out.vertex = "passes/fullscreen.vert";
         out.fragment = concat("particles/", file, ".frag");
         out.label = label;
-        out.cache = cache;
         return out;
     };
     const auto make = [&](const char* file, const char* label, const std::vector<std::string>& defines) {
         gpu::ProgramOptions program = options(file, label);
         program.defines = {concat("LEVELS ", levels_.size()), concat("STATE_WIDTH ", stateWidth)};
         program.defines.insert(program.defines.end(), defines.begin(), defines.end());
-        return Program(*context_, shaderRoot, program);
+        return Program(*context_, program);
     };
     sumWords_ = make("sums", "sums of words", {"WORDS"});
     sumLevel_ = make("sums", "sums of places", {});
@@ -79,7 +77,7 @@ void TexturePlaces::makePrograms(const std::string& shaderRoot, const Plan& plan
         gpu::ProgramOptions bits = options("bits", "bits of places");
         bits.defines = group.layout().defines(true);
         if (group.life->feeds) bits.defines.emplace_back("DEATHS");
-        findBits_.back() = &made_.get(*context_, shaderRoot, bits);
+        findBits_.back() = &made_.get(*context_, bits);
     }
 }
 

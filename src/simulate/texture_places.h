@@ -25,8 +25,7 @@ namespace shoal {
 class TexturePlaces {
   public:
     // Borrows the plan. Error: out of memory.
-    TexturePlaces(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                  gpu::ProgramCache* cache);
+    TexturePlaces(gpu::Context& context, const Plan& plan);
 
     // Sums over the places of a group after a step: so many from the first one on, around the capacity. What
     // follows is of these sums, and of this group.
@@ -55,7 +54,7 @@ class TexturePlaces {
         gpu::Texture sums;
         gpu::Framebuffer framebuffer;
     };
-    void makePrograms(const std::string& shaderRoot, const Plan& plan, gpu::ProgramCache* cache);
+    void makePrograms(const Plan& plan);
     void put(const gpu::Program& program, int scheduled, std::span<const glm::ivec4> deaths, bool allocates);
     void draw(const gpu::Program& list, const gpu::Framebuffer& target, int firstRow, int rows) const;
     void bindTree(const gpu::Program& program) const;

@@ -24,13 +24,11 @@ static size_t mostOf(const gpu::ContextInfo& info) {
     return std::min(side * side / 2 - 1, NetworkSort::most(info, NetworkSort::Kind::bitonic));
 }
 
-TextureSchool::TextureSchool(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                             const Tables& tables, gpu::ProgramCache* cache)
+TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
     : SchoolPasses(context, plan, tables, rowBitsOf(plan.school)),
       rowBits_(rowBitsOf(plan.school)),
-      sort_((checkCount(plan.school, mostOf(context.info())), context), shaderRoot,
-            NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_, cache,
-            NetworkSort::Ties::byIndex),
+      sort_((checkCount(plan.school, mostOf(context.info())), context), NetworkSort::Kind::bitonic,
+            size_t(plan.school.entries), 2 << rowBits_, NetworkSort::Ties::byIndex),
       noAttributes_(context, "school") {
     const auto texture = [&](Format format, int numbers, const char* label, int layers = 0) {
         return Texture(context, format, 1 << rowBits_, rowsOf(numbers), label, layers);
@@ -44,15 +42,13 @@ TextureSchool::TextureSchool(gpu::Context& context, const std::string& shaderRoo
     newSlotSteering_ = Framebuffer(context, {{&slotSteering_}}, nullptr, "school steering");
     newStarts_ = Framebuffer(context, {{&startsOf_}}, nullptr, "school cells");
     newOrder_ = Framebuffer(context, {{&places_}, {&velocities_}}, nullptr, "school order");
-    makePrograms(shaderRoot, cache);
+    makePrograms();
     gpu::ProgramOptions starts = optionsOf("", "school starts", nullptr);
     starts.fragment = "sort/starts.frag";
-    starts.cache = cache;
-    starts_ = Program(context, shaderRoot, starts);
+    starts_ = Program(context, starts);
     gpu::ProgramOptions steered = optionsOf("steered", "school steering", nullptr);
     steered.defines.push_back(concat("STATE_WIDTH ", stateWidth));
-    steered.cache = cache;
-    steered_ = Program(context, shaderRoot, steered);
+    steered_ = Program(context, steered);
 }
 
 void TextureSchool::draw(const Framebuffer& target, int firstRow, int rows) const {

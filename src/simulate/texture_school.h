@@ -17,8 +17,7 @@ namespace shoal {
 class TextureSchool : public SchoolPasses {
   public:
     // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
-    TextureSchool(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                  const Tables& tables, gpu::ProgramCache* cache);
+    TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables);
 
     // Steers the molecules of `state` for this frame; blending, tests and masks are off in it.
     void step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers);

@@ -74,8 +74,7 @@ size_t NetworkSort::most(const gpu::ContextInfo& info, Kind kind) {
     return std::min(std::bit_floor(size) * size_t(pairsInTexel(kind)) * size, size_t(INT_MAX / 2));
 }
 
-NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
-                         int rowLength, gpu::ProgramCache* cache, Ties ties)
+NetworkSort::NetworkSort(gpu::Context& context, Kind kind, size_t capacity, int rowLength, Ties ties)
     : kind_(kind),
       capacity_(checkedCapacity(context.info(), kind, capacity)),
       count_(capacity_),
@@ -90,10 +89,9 @@ NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, K
     options.vertex = "passes/fullscreen.vert";
     options.fragment = kind == Kind::bitonic ? "sort/bitonic.frag" : "sort/odd_even_merge.frag";
     options.label = name(kind);
-    options.cache = cache;
     EXPECTS(ties == Ties::any || kind == Kind::bitonic);
     if (ties == Ties::byIndex) options.defines.emplace_back("TIES_BY_INDEX");
-    program_ = gpu::Program(context, shaderRoot, options);
+    program_ = gpu::Program(context, options);
 }
 
 void NetworkSort::setCount(size_t count) {

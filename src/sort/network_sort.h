@@ -64,8 +64,7 @@ class NetworkSort {
 
     // rowLength 0: one that makes the texture about as wide as high. Error: more pairs than fit into the
     // largest texture of the context, with how many do; out of memory.
-    NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
-                int rowLength = 0, gpu::ProgramCache* cache = nullptr, Ties ties = Ties::any);
+    NetworkSort(gpu::Context& context, Kind kind, size_t capacity, int rowLength = 0, Ties ties = Ties::any);
     static size_t most(const gpu::ContextInfo& info, Kind kind);
 
     // Sets what is sorted from now on: the first `count` pairs (at most the capacity). Ends a spread sort.

@@ -30,15 +30,13 @@ int dividedUp(size_t value, size_t by) {
     return int((value + by - 1) / by);
 }
 
-Program compute(gpu::Context& context, const std::string& root, const char* file, int lanes,
-                gpu::ProgramCache* cache) {
+Program compute(gpu::Context& context, const char* file, int lanes) {
     gpu::ProgramOptions options;
     options.compute = file;
     options.label = file;
     options.defines = {concat("LANES ", lanes), concat("MOST_DIGITS ", 1 << pieceDigitBits),
                        concat("TILE_PAIRS ", tilePairs)};
-    options.cache = cache;
-    return {context, root, options};
+    return {context, options};
 }
 
 size_t checkedCapacity(const gpu::ContextInfo& info, size_t capacity) {
@@ -60,16 +58,13 @@ size_t RadixSort::most(const gpu::ContextInfo& info) {
     return std::min(most, size_t(INT_MAX - tilePairs));  // shaders count in int
 }
 
-RadixSort::RadixSort(gpu::Context& context, const std::string& shaderRoot, size_t capacity,
-                     gpu::ProgramCache* cache, Way way)
+RadixSort::RadixSort(gpu::Context& context, size_t capacity, Way way)
     : context_(&context),
       capacity_(checkedCapacity(context.info(), capacity)),
       tiles_(way == Way::tiles || (way == Way::automatic && !context.info().software)),
       // Twice as many workgroups as cores, which evens out what one of them waits for.
       mostLanes_(simdLanes * 2 * int(std::clamp(std::thread::hardware_concurrency(), 1u, 32u))) {
-    const auto make = [&](const char* file, int lanes) {
-        return compute(context, shaderRoot, file, lanes, cache);
-    };
+    const auto make = [&](const char* file, int lanes) { return compute(context, file, lanes); };
     count_ = tiles_ ? make("sort/tiles_count.comp", tileLanes) : make("sort/pieces_count.comp", simdLanes);
     scan_ = tiles_ ? make("sort/tiles_scan.comp", tileLanes) : make("sort/pieces_scan.comp", simdLanes);
     scatter_ =

@@ -17,7 +17,6 @@
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/program.h"
-#include "gpu/program_cache.h"
 
 namespace shoal {
 
@@ -27,8 +26,7 @@ class RadixSort {
 
     // For up to `capacity` pairs; takes as much memory again as they do, and some. Error: a context
     // below 4.3; more pairs than it can hold, with how many it can; out of memory.
-    RadixSort(gpu::Context& context, const std::string& shaderRoot, size_t capacity,
-              gpu::ProgramCache* cache = nullptr, Way way = Way::automatic);
+    RadixSort(gpu::Context& context, size_t capacity, Way way = Way::automatic);
     // How many pairs a context can hold, by its limits; 0 below 4.3.
     static size_t most(const gpu::ContextInfo& info);
 

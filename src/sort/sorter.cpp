@@ -34,17 +34,15 @@ bool canRun(SortMethod method, const gpu::ContextInfo& info) {
     return info.atLeast(row(method).major, row(method).minor);
 }
 
-Sorter::Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod method, size_t capacity,
-               int rowLength, gpu::ProgramCache* cache)
+Sorter::Sorter(gpu::Context& context, SortMethod method, size_t capacity, int rowLength)
     : method_(method), capacity_(capacity) {
     if (row(method).network) {
         const auto kind =
             method == SortMethod::bitonic ? NetworkSort::Kind::bitonic : NetworkSort::Kind::oddEvenMerge;
-        network_ = std::make_unique<NetworkSort>(context, shaderRoot, kind, capacity, rowLength, cache);
+        network_ = std::make_unique<NetworkSort>(context, kind, capacity, rowLength);
         return;
     }
-    if (method == SortMethod::radix)
-        radix_ = std::make_unique<RadixSort>(context, shaderRoot, capacity, cache);
+    if (method == SortMethod::radix) radix_ = std::make_unique<RadixSort>(context, capacity);
     const size_t bytes = std::max<size_t>(capacity, 1) * sizeof(KeyIndex);
     buffer_ = gpu::Buffer(context, gpu::Buffer::Use::storage, nullptr, bytes, "pairs");
 }

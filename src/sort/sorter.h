@@ -9,7 +9,6 @@
 
 #include "gpu/buffer.h"
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "sort/network_sort.h"
 #include "sort/radix_sort.h"
 
@@ -33,8 +32,7 @@ class Sorter {
   public:
     // rowLength: networks only, see NetworkSort. Error: the context cannot run the method, or not hold so
     // many.
-    Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod method, size_t capacity,
-           int rowLength = 0, gpu::ProgramCache* cache = nullptr);
+    Sorter(gpu::Context& context, SortMethod method, size_t capacity, int rowLength = 0);
 
     // Sets the number of pairs, at most the capacity. Counted as state, like the download.
     void upload(std::span<const KeyIndex> pairs);

@@ -57,9 +57,8 @@ static glm::dvec3 fluidVelocity(const Scene& scene, const Parameters& parameters
     return out;
 }
 
-Explanations::Explanations(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                           const Plan& plan)
-    : springs_(context, shaderRoot, scene, plan), lines_(context, shaderRoot) {}
+Explanations::Explanations(gpu::Context& context, const Scene& scene, const Plan& plan)
+    : springs_(context, scene, plan), lines_(context) {}
 
 // A square of arrows about what the camera looks at, on a lattice that stands still while the camera moves.
 void Explanations::prepare(const Scene& scene, const Simulation& simulation, const View& view) {

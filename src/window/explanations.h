@@ -23,7 +23,7 @@ struct ExplanationSettings {
 
 class Explanations : public Overlay {
   public:
-    Explanations(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan);
+    Explanations(gpu::Context& context, const Scene& scene, const Plan& plan);
 
     ExplanationSettings settings;
     std::optional<PickedMolecule> picked;

@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
-#include "run/data_paths.h"
 #include "window/panel.h"
 
 namespace shoal::window {
@@ -20,13 +19,11 @@ constexpr double secondsAMolecule = 0.5;
 
 }  // namespace
 
-std::string methodError(const Scene& scene, const Simulation& simulation, gpu::ProgramCache& cache) {
+std::string methodError(const Scene& scene, const Simulation& simulation) {
     const Plan& plan = simulation.plan();
     if (plan.contact.any()) return "no error: the reference has no contact between molecules";
     if (plan.hasLife()) return "no error: the reference has no birth and death";
     const AccuracyDevice device{.context = &simulation.context(),
-                                .shaderRoot = shaderRoot(),
-                                .cache = &cache,
                                 .cores = int(std::max(1u, std::thread::hardware_concurrency())),
                                 .path = simulation.path().path};
     try {

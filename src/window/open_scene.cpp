@@ -10,20 +10,18 @@
 
 #include "core/printable.h"
 #include "run/checkpoints.h"
-#include "run/data_paths.h"
 #include "window/interface.h"
 
 namespace shoal::window {
 
-OpenScene::OpenScene(RunRequest given, gpu::Context& context, gpu::ProgramCache& cache, Loaded loaded,
-                     int width, int height)
+OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int width, int height)
     : request(std::move(given)),
-      running(request, context, cache, std::move(loaded), width, height),
+      running(request, context, std::move(loaded), width, height),
       controls(running.simulation().plan()),
       panel(running.original()),
       scenePanel(running.scene),
       camera(View::of(running.scene.camera)) {
-    explanations = std::make_unique<Explanations>(context, shaderRoot(), running.scene, simulation().plan());
+    explanations = std::make_unique<Explanations>(context, running.scene, simulation().plan());
     reload.follow(running, true);
     checkSave(request);
     if (request.resume.empty()) return;
@@ -41,7 +39,7 @@ void OpenScene::follow() {
     timeLine.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
-    explanations = std::make_unique<Explanations>(simulation().context(), shaderRoot(), running.scene, plan);
+    explanations = std::make_unique<Explanations>(simulation().context(), running.scene, plan);
     explanations->settings = settings;
     const bool there =
         picked && picked->group < plan.groups.size() && picked->molecule < plan.groups[picked->group].count;

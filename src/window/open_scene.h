@@ -25,8 +25,7 @@ struct OpenScene {
     bool follows = false;                    // the camera, the picked molecule
 
     // Error: RunningScene's; what --resume and --save name cannot be read or written.
-    OpenScene(RunRequest given, gpu::Context& context, gpu::ProgramCache& cache, Loaded loaded, int width,
-              int height);
+    OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int width, int height);
     OpenScene(const OpenScene&) = delete;  // the running scene refers to the request
     OpenScene& operator=(const OpenScene&) = delete;
 

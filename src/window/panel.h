@@ -83,7 +83,7 @@ void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing
 // Measures the error of a few molecules of each group of `scene`, from its start over half a second, by the
 // solver and substeps of the simulation against the double-precision reference: "error 1.2e-4 of its size
 // (RMS of 4 after 0.5 s)", or why there is none. Takes seconds.
-std::string methodError(const Scene& scene, const Simulation& simulation, gpu::ProgramCache& cache);
+std::string methodError(const Scene& scene, const Simulation& simulation);
 
 // ---- What the scene says of its groups
 

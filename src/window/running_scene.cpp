@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/file.h"
+#include "gpu/program_cache.h"
 #include "molecule/molecule_file.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 #include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
@@ -43,11 +43,10 @@ const Group* named(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, gpu::ProgramCache& cache,
-                           Loaded loaded, int width, int height)
+RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, Loaded loaded, int width,
+                           int height)
     : request_(request),
       context_(&context),
-      cache_(&cache),
       original_(loaded.scene),
       text_(readFile(original_.file)),
       saved_(text_),
@@ -64,8 +63,7 @@ std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
     // what was asked of compute shaders does not bind the other paths
     if (path == Path::automatic || path == Path::fused)
         wanted.inPlace = request_.inPlace, wanted.lanes = request_.lanes;
-    wanted.cache = cache_;
-    return std::make_unique<Simulation>(*context_, shaderRoot(), std::move(plan), wanted);
+    return std::make_unique<Simulation>(*context_, std::move(plan), wanted);
 }
 
 // Where the path is free, keeps the one that runs, unless it cannot run the new plan. A shader that the
@@ -85,12 +83,12 @@ std::unique_ptr<Simulation> RunningScene::simulateAsBefore(const Plan& plan, Pat
 std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path path) {
     std::unique_ptr<Simulation> simulation = simulateAsBefore(plan, path);
     tellWarnings(simulation->warnings());
-    tellWarnings(cache_->takeWarnings());
+    tellWarnings(context_->cache().takeWarnings());
     RenderOptions size;
     size.width = renderer_ ? renderer_->width() : width_;
     size.height = renderer_ ? renderer_->height() : height_;
     size.timing = simulation->timers().mode();
-    auto renderer = std::make_unique<Renderer>(*context_, shaderRoot(), next, simulation->plan(), size);
+    auto renderer = std::make_unique<Renderer>(*context_, next, simulation->plan(), size);
     std::vector<std::string> restarted;
     if (simulation_) {
         GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());

@@ -13,7 +13,6 @@
 
 #include "core/file_watch.h"
 #include "core/json_edit.h"
-#include "gpu/program_cache.h"
 #include "render/renderer.h"
 #include "run/request.h"
 #include "simulate/simulation.h"
@@ -36,8 +35,7 @@ struct Choices {
 class RunningScene {
   public:
     // Error: the scene does not fit the context; the driver refuses a program.
-    RunningScene(const RunRequest& request, gpu::Context& context, gpu::ProgramCache& cache, Loaded loaded,
-                 int width, int height);
+    RunningScene(const RunRequest& request, gpu::Context& context, Loaded loaded, int width, int height);
 
     Scene scene;      // as it is edited; what it does to the run is told by the functions below
     Choices choices;  // the same
@@ -104,7 +102,6 @@ class RunningScene {
 
     const RunRequest& request_;
     gpu::Context* context_;
-    gpu::ProgramCache* cache_;
     Scene original_;
     std::string text_, saved_;              // that original_ was read from; of the file
     std::vector<std::string> undo_, redo_;  // texts

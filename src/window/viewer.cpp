@@ -62,8 +62,7 @@ class Viewer : public WindowLoop {
     Viewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded)
         : WindowLoop(options.window, context), options_(options), chooser_(context) {
         if (loaded)
-            open_ = std::make_unique<OpenScene>(options.run, context, cache(), std::move(*loaded), width(),
-                                                height());
+            open_ = std::make_unique<OpenScene>(options.run, context, std::move(*loaded), width(), height());
         else
             listScenes();
         if (open_ && options.edits) open_->scenePanel.showWhole();
@@ -272,7 +271,7 @@ class Viewer : public WindowLoop {
             listScenes();
             break;
         case Panel::Action::measure:
-            open_->panel.error = methodError(open_->running.scene, open_->simulation(), cache());
+            open_->panel.error = methodError(open_->running.scene, open_->simulation());
             std::cout << open_->panel.error << std::endl;
             break;
         }
@@ -352,8 +351,8 @@ class Viewer : public WindowLoop {
         request.inPlace = options_.run.inPlace;
         try {
             Loaded loaded = loadScene(file, request);
-            auto next = std::make_unique<OpenScene>(std::move(request), context(), cache(), std::move(loaded),
-                                                    width(), height());
+            auto next = std::make_unique<OpenScene>(std::move(request), context(), std::move(loaded), width(),
+                                                    height());
             open_ = std::move(next);
             troubles.clear();
             chooser_.open = discards_ = shownUnsaved_ = false;

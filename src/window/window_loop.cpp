@@ -8,7 +8,6 @@
 #include <iostream>
 #include <utility>
 
-#include "core/cache_folder.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
 #include "render/picture.h"
@@ -20,8 +19,7 @@ WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
     : options_(std::move(options)),
       context_(context),
       window_(context.window()),
-      interface_(window_, options_.scale),
-      cache_(context, cacheFolder()) {
+      interface_(window_, options_.scale) {
     glfwSwapInterval(1);
     glfwGetFramebufferSize(window_, &width_, &height_);
 }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "window/interface.h"
 #include "window/notices.h"
 #include "window/windows.h"
@@ -37,7 +36,6 @@ class WindowLoop {
     // ---- For those
 
     gpu::Context& context() { return context_; }
-    gpu::ProgramCache& cache() { return cache_; }
     Input& keys() { return interface_.input(); }
     double pixelsPerPoint() const { return interface_.pixelsPerPoint(); }
     int width() const { return width_; }                   // pixels
@@ -60,7 +58,6 @@ class WindowLoop {
     gpu::Context& context_;
     GLFWwindow* window_;
     Interface interface_;
-    gpu::ProgramCache cache_;
     int width_ = 0, height_ = 0, shown_ = 0;
     double frameSeconds_ = 0;
 };

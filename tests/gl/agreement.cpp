@@ -8,10 +8,8 @@ namespace shoal::test {
 
 namespace {
 
-constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
-
 Simulation on(const Scene& scene, const SimulationOptions& options) {
-    return Simulation(testContext(), shaders, compile(scene), options);
+    return Simulation(testContext(), compile(scene), options);
 }
 
 // For the ping-pong path, which reads fields in one way only.
@@ -78,8 +76,8 @@ Agreement::Agreement(const Scene& scene, const SimulationOptions& first, const S
         return shoal::solver(group.solver).implicit;
     });
     const SimulationOptions options{.path = implicit ? first.path : Path::pingPong};
-    touching_.emplace(testContext(), shaders, plan, options);
-    free_.emplace(testContext(), shaders, compile(withoutColliders(touching)), options);
+    touching_.emplace(testContext(), plan, options);
+    free_.emplace(testContext(), compile(withoutColliders(touching)), options);
 }
 
 Comparison Agreement::at(int frame) {

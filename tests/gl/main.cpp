@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     try {
         const char* word = std::getenv("SHOAL_TEST_CONTEXT");
         ContextOptions options;
+        options.shaders = SHOAL_SOURCE_DIR "/shaders";
         options.kind = contextKind(word != nullptr ? word : "egl");
         options.width = options.height = 64;
         options.visible = false;

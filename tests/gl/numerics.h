@@ -42,8 +42,7 @@ inline void setSteps(Scene& scene, double frameTime, int substeps) {
 }
 
 inline Simulation simulationOf(const Scene& scene, bool drawn = false) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                      {.drawn = drawn, .path = testPath()});
+    return Simulation(testContext(), compile(scene), {.drawn = drawn, .path = testPath()});
 }
 
 inline void run(Simulation& simulation, int frames) {

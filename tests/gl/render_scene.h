@@ -12,10 +12,6 @@
 
 namespace shoal::test {
 
-inline std::string shaderRoot() {
-    return std::string(SHOAL_SOURCE_DIR) + "/shaders";
-}
-
 // A square in the xy plane around its own origin, facing +Z.
 inline Molecule squareMolecule(double side) {
     Molecule out;
@@ -59,8 +55,8 @@ inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.
                   double time = 0) {
     gpu::Context& context = testContext();
     const Plan plan = compile(scene);
-    Renderer renderer(context, shaderRoot(), scene, plan, options);
-    Simulation simulation(context, shaderRoot(), plan, {.path = testPath()});
+    Renderer renderer(context, scene, plan, options);
+    Simulation simulation(context, plan, {.path = testPath()});
     for (int i = 0; i < frames; ++i)
         simulation.frame();
     Shown out;

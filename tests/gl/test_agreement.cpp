@@ -12,8 +12,6 @@ using test::FeatureScene;
 
 namespace {
 
-constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
-
 bool runsInFragments(const Plan& plan) {
     try {
         choosePath(plan, Path::fragments, limitsOf(testContext().info()));
@@ -39,7 +37,7 @@ std::vector<Path> pathsOf(const Plan& plan) {
 }
 
 Simulation on(Path path, const Plan& plan) {
-    return Simulation(testContext(), shaders, plan, {.path = path});
+    return Simulation(testContext(), plan, {.path = path});
 }
 
 }  // namespace

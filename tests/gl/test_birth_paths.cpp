@@ -10,8 +10,7 @@ using namespace shoal::test;
 namespace {
 
 Simulation on(Path path, const Scene& scene) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                      {.drawn = false, .path = path});
+    return Simulation(testContext(), compile(scene), {.drawn = false, .path = path});
 }
 
 // Rockets that fly out of a box, or live only so long, or only so long after they have touched the ground;

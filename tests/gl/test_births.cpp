@@ -232,8 +232,7 @@ TEST_CASE("one side of the state, contact steps or two sides: births are the sam
     Scene scene = flowing(Allocator::gpu, 3000, {0.1, 0.7}, 1500);
     scene.gravity = {0, -9.81, 0};
     Simulation two = simulationOf(scene);
-    Simulation one(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                   {.drawn = false, .path = testPath(), .inPlace = true});
+    Simulation one(testContext(), compile(scene), {.drawn = false, .path = testPath(), .inPlace = true});
     run(two, 40);
     run(one, 40);
     CHECK(two.hash() == one.hash());
@@ -474,9 +473,9 @@ TEST_CASE("a group in parts spawns and loses the same molecules as one that is w
         scene.groups[0].place.box = {{-1, 0, -1}, {1, 1, 1}};
         const Plan plan = compile(scene);
         SimulationOptions options{.path = Path::fused};
-        Simulation whole(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
+        Simulation whole(testContext(), plan, options);
         options.largestPart = 300;
-        Simulation split(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
+        Simulation split(testContext(), plan, options);
         REQUIRE(whole.state().buffers->front().parts().size() == 1);
         REQUIRE(split.state().buffers->front().parts().size() > 6);
         // a life takes 1 to 6 frames
@@ -521,9 +520,7 @@ TEST_CASE("a capacity that the context cannot hold is refused", "[births]") {
     if (!testContext().info().computeShaders || testPath() == Path::pingPong) return;
     const size_t each = size_t(plan.groups[0].layout().stateElements()) * sizeof(glm::vec4);
     if (capacity * each <= size_t(testContext().info().maxStorageBlockBytes)) return;
-    CHECK_THAT(messageOf([&] {
-                   Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, {.path = Path::fused});
-               }),
+    CHECK_THAT(messageOf([&] { Simulation(testContext(), plan, {.path = Path::fused}); }),
                Catch::Contains("from whose deaths others are born") && Catch::Contains("at most"));
 }
 

@@ -18,7 +18,7 @@ using namespace shoal::test;
 namespace {
 
 Simulation make(const Plan& plan, const SimulationOptions& options) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
+    return Simulation(testContext(), plan, options);
 }
 
 // Leaves that hang, tear off and fly metres away, in gusts, onto the ground; beside them points.

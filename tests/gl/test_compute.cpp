@@ -65,7 +65,7 @@ TEST_CASE("a compute program writes a part of a buffer, and nothing beside it", 
         numbers[size_t(i)] = float(i) - 500.0f;
     const Buffer input = storageOf(numbers, "numbers"), output = storageOf(untouched, "squares");
 
-    const Program program(testContext(), "nowhere", computing(squares));
+    const Program program(testContext(), computing(squares));
     program.use();
     program.set("count", uint32_t(count));
     program.storage("Numbers", 3, input, 0, bytes);
@@ -87,7 +87,7 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
     const size_t offset = roundUp(16, testContext().info().textureBufferAlignment);
     const size_t bytes = offset + texels * 16 + 160;
     const Buffer values(testContext(), Buffer::Use::storage, nullptr, bytes, "values");
-    const Program fill(testContext(), "nowhere",
+    const Program fill(testContext(),
                        computing("layout(local_size_x = 64) in;\n"
                                  "layout(std430, binding = 0) writeonly buffer Values { float value[]; };\n"
                                  "uniform int first;\n"
@@ -103,7 +103,7 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
 
     const BufferTexture part(testContext(), values, "part", offset, texels * 16);
     CHECK(part.texels() == texels);
-    const Program sum(testContext(), "nowhere",
+    const Program sum(testContext(),
                       computing("layout(local_size_x = 64) in;\n"
                                 "layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };\n"
                                 "uniform samplerBuffer part;\n"
@@ -142,7 +142,7 @@ TEST_CASE("a fragment shader reads a whole buffer as a texture", "[compute]") {
          "uniform samplerBuffer values;\n"
          "layout(location = 0) out vec4 color;\n"
          "void main() { color = texelFetch(values, textureSize(values) - 1); }\n"}};
-    const Program program(testContext(), "nowhere", options);
+    const Program program(testContext(), options);
     Texture target(testContext(), Format::rgba32f, 1, 1, "target");
     const Framebuffer framebuffer(testContext(), {&target}, nullptr, "target");
     framebuffer.bind();
@@ -184,7 +184,7 @@ TEST_CASE("a mistake in a compute shader is located in our file", "[compute]") {
     options.defines = {"A"};
     options.generated["lib/broken.glsl"] = "// one\nvoid broken() { notDeclared = 1; }\n";
     try {
-        const Program program(testContext(), "nowhere", options);
+        const Program program(testContext(), options);
         FAIL("compiled");
     } catch (const shoal::Error& error) {
         CHECK(error.location().file == "generated:lib/broken.glsl");
@@ -195,7 +195,7 @@ TEST_CASE("a mistake in a compute shader is located in our file", "[compute]") {
     }
     CHECK_THAT(messageOf([] {
                    Program(
-                       testContext(), "nowhere",
+                       testContext(),
                        computing("layout(local_size_x = 1) in;\nvoid never();\nvoid main() { never(); }\n"));
                }),
                Catch::Contains("program \"test\" (test.comp) does not link"));
@@ -210,6 +210,6 @@ TEST_CASE("compute programs are refused by the version of the context", "[comput
     CHECK((info.textureBufferAlignment > 0) == info.computeShaders);
     if (info.computeShaders) return;
     CHECK_FALSE(info.subgroups);
-    CHECK(messageOf([] { Program(testContext(), "nowhere", computing(squares)); }) ==
+    CHECK(messageOf([] { Program(testContext(), computing(squares)); }) ==
           shoal::concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
 }

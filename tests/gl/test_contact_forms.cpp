@@ -44,10 +44,8 @@ TEST_CASE("compute shaders and fragments have the same contact", "[molecule cont
         for (const bool self : {false, true}) {
             CAPTURE(triangles, self);
             const Plan plan = compile(heap(triangles, self));
-            Simulation compute(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                               {.drawn = false, .path = Path::fused});
-            Simulation fragments(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                                 {.drawn = false, .path = Path::fragments});
+            Simulation compute(testContext(), plan, {.drawn = false, .path = Path::fused});
+            Simulation fragments(testContext(), plan, {.drawn = false, .path = Path::fragments});
             size_t most = 0;
             for (int i = 0; i < 40; ++i) {
                 compute.frame();
@@ -90,7 +88,7 @@ TEST_CASE("contact has the same bits whether keys are sorted or counted in their
             const Plan plan = compile(scene);
             uint64_t hashes[2];
             for (const bool asOnGpu : {false, true}) {
-                Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                Simulation simulation(testContext(), plan,
                                       {.drawn = false, .path = Path::fused, .asOnGpu = asOnGpu});
                 for (int i = 0; i < 6; ++i)
                     simulation.frame();
@@ -113,7 +111,7 @@ TEST_CASE("a contact step takes as many dispatches when nothing touches as when 
             const double half = touch ? 0.02 : 100;
             scene.groups[0].place.box = {glm::dvec3(-half), glm::dvec3(half)};
             scene.groups[0].contact.emplace().radius = 0.02;
-            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+            Simulation simulation(testContext(), compile(scene),
                                   {.drawn = false, .path = Path::fused, .asOnGpu = asOnGpu});
             simulation.frame();
             CHECK(simulation.contact()->found().empty() != touch);

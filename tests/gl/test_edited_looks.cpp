@@ -44,8 +44,8 @@ Scene cloud(const ParticleType& type) {
 class Drawn {
   public:
     explicit Drawn(const Scene& scene)
-        : simulation_(testContext(), shaderRoot(), compile(scene), {.path = testPath()}),
-          renderer(testContext(), shaderRoot(), scene, simulation_.plan(), {.width = 96, .height = 72}),
+        : simulation_(testContext(), compile(scene), {.path = testPath()}),
+          renderer(testContext(), scene, simulation_.plan(), {.width = 96, .height = 72}),
           view_(View::of(scene.camera)) {
         run(simulation_, 6);
     }
@@ -56,7 +56,7 @@ class Drawn {
         return by.capture();
     }
     Renderer rendererOf(const Scene& scene) {
-        return Renderer(testContext(), shaderRoot(), scene, simulation_.plan(), {.width = 96, .height = 72});
+        return Renderer(testContext(), scene, simulation_.plan(), {.width = 96, .height = 72});
     }
 
   private:

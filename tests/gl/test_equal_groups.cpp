@@ -17,8 +17,6 @@ using shoal::test::Scratch;
 
 namespace {
 
-const std::string shaders = SHOAL_SOURCE_DIR "/shaders";
-
 // Squares over a plane, each group under its own name and at its own height.
 Scene groups(int count, const std::string& name) {
     std::string text =
@@ -36,14 +34,14 @@ Scene groups(int count, const std::string& name) {
 TEST_CASE("Equal groups compile once, and each moves by itself", "[fused][numerics]") {
     const Scratch scratch;
     const auto run = [&](const Scene& scene, const char* folder, int& made) {
-        gpu::ProgramCache cache(testContext(), scratch.path(folder));
+        testContext().setCache(scratch.path(folder));
         SimulationOptions options;
         options.path = testPath();
-        options.cache = &cache;
-        Simulation simulation(testContext(), shaders, compile(scene), options);
+        Simulation simulation(testContext(), compile(scene), options);
         for (int i = 0; i < 20; ++i)
             simulation.frame();
-        made = cache.misses() + cache.hits();
+        made = testContext().cache().misses() + testContext().cache().hits();
+        testContext().setCache("");
         return simulation.snapshot(0).positions;
     };
     int one = 0, many = 0;
@@ -63,11 +61,11 @@ TEST_CASE("Equal groups compile once, and each moves by itself", "[fused][numeri
 TEST_CASE("A group's name may be as long as it likes", "[fused][render]") {
     const std::string name(300, 'g'), wide = name + std::string(100, '\xC3') + "\xA4";
     Scene scene = groups(2, name);
-    Simulation simulation(testContext(), shaders, compile(scene), {});
+    Simulation simulation(testContext(), compile(scene), {});
     simulation.frame();
     RenderOptions options;
     options.width = options.height = 32;
-    Renderer renderer(testContext(), shaders, scene, simulation.plan(), options);
+    Renderer renderer(testContext(), scene, simulation.plan(), options);
     renderer.draw(simulation.state(), View::of(scene.camera, 0));
     {
         const gpu::DebugGroup group(testContext().info(), wide.c_str());

@@ -41,7 +41,7 @@ Scene leavesInGusts() {
 Simulation simulationOf(Scene scene, Sampling sampling, int framesPerSecond) {
     scene.solver.fieldSampling = sampling;
     test::setSteps(scene, 1.0 / framesPerSecond, substepsPerSecond / framesPerSecond);
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = Path::fused});
+    return Simulation(testContext(), compile(scene), {.path = Path::fused});
 }
 
 std::vector<reference::State> afterASecond(const Scene& scene, Sampling sampling, int framesPerSecond) {

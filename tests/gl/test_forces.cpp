@@ -350,8 +350,7 @@ TEST_CASE("what is born within a frame has flown under the forces since its birt
     even.falloff = AttractForce::Falloff::constant;
     const auto speedsOff = [&](const ForceShape& shape, auto expected) {
         scene.forces = {forceOf(shape)};
-        Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                              {.drawn = false, .path = Path::fused});
+        Simulation simulation(testContext(), compile(scene), {.drawn = false, .path = Path::fused});
         run(simulation, 20);
         const GroupState state = simulation.save().groups[0];
         double worst = 0;

@@ -41,10 +41,9 @@ TEST_CASE("draw buffers are the colours in their order", "[framebuffer]") {
     CHECK(framebuffer.width() == 4);
     framebuffer.bind();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const Program program(testContext(), "nowhere",
-                          shaders("layout(location = 0) out vec4 first;\n"
-                                  "layout(location = 1) out vec4 second;\n"
-                                  "void main() { first = vec4(1.0); second = vec4(2.0); }\n"));
+    const Program program(testContext(), shaders("layout(location = 0) out vec4 first;\n"
+                                                 "layout(location = 1) out vec4 second;\n"
+                                                 "void main() { first = vec4(1.0); second = vec4(2.0); }\n"));
     glEnable(GL_DEPTH_TEST);
     drawTriangle(program);
     glDisable(GL_DEPTH_TEST);
@@ -65,9 +64,8 @@ TEST_CASE("a part of a framebuffer can be drawn alone", "[framebuffer]") {
     texture.upload(Kind::parameters, 0, 0, 4, 4, zeros.data(), 64);
     const Framebuffer framebuffer(testContext(), {&texture});
     framebuffer.bind(0, 2, 4, 2);
-    const Program program(testContext(), "nowhere",
-                          shaders("layout(location = 0) out vec4 color;\n"
-                                  "void main() { color = vec4(gl_FragCoord.y); }\n"));
+    const Program program(testContext(), shaders("layout(location = 0) out vec4 color;\n"
+                                                 "void main() { color = vec4(gl_FragCoord.y); }\n"));
     drawTriangle(program);
     float back[16] = {};
     texture.download(Kind::control, 0, 0, 4, 4, back, sizeof back);
@@ -83,9 +81,8 @@ TEST_CASE("samples resolve to what was covered", "[framebuffer]") {
     many.bind();
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const Program program(testContext(), "nowhere",
-                          shaders("layout(location = 0) out vec4 color;\n"
-                                  "void main() { color = vec4(1.0); }\n"));
+    const Program program(testContext(), shaders("layout(location = 0) out vec4 color;\n"
+                                                 "void main() { color = vec4(1.0); }\n"));
     drawTriangle(program);
     many.blitTo(resolved);
     std::vector<unsigned char> pixels(8 * 8 * 4);

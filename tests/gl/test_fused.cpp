@@ -13,8 +13,6 @@ using test::FeatureScene;
 
 namespace {
 
-constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
-
 // Contact, pins that are released, directional drag, muscles and fields at once.
 Scene fullScene(Molecule molecule, int count, FieldSampling sampling, SolverKind solver) {
     molecule.vertices[0].pinned = molecule.vertices.size() > 1;
@@ -41,9 +39,8 @@ TEST_CASE("in place the bits are the same, from half the memory", "[fused]") {
             const Scene scene = fullScene(test::shippedMolecule("leaf"), count, FieldSampling::vertexSubstep,
                                           SolverKind::leapfrog);
             const Plan plan = compile(scene);
-            Simulation two(testContext(), shaders, plan, {.path = Path::fused, .lanes = lanes});
-            Simulation one(testContext(), shaders, plan,
-                           {.path = Path::fused, .inPlace = true, .lanes = lanes});
+            Simulation two(testContext(), plan, {.path = Path::fused, .lanes = lanes});
+            Simulation one(testContext(), plan, {.path = Path::fused, .inPlace = true, .lanes = lanes});
             const BufferLayout layout{9};
             CHECK(two.stateBytes() - one.stateBytes() ==
                   layout.padded(size_t(count)) * size_t(layout.stateElements()) * 16);
@@ -74,12 +71,11 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             scene.camera.eye = {0, 2, 7};
             scene.camera.target = {0, 1.5, 0};
             const Plan plan = compile(scene);
-            Simulation whole(context, shaders, plan,
-                             {.path = Path::fused, .inPlace = inPlace, .lanes = lanes});
+            Simulation whole(context, plan, {.path = Path::fused, .inPlace = inPlace, .lanes = lanes});
             REQUIRE(whole.state().buffers->front().parts().size() == 1);
 
             const Tables tables(context, plan, Tables::Form::buffer);
-            Fused split(context, shaders, plan, tables, {.drawn = true, .inPlace = inPlace, .lanes = lanes});
+            Fused split(context, plan, tables, {.drawn = true, .inPlace = inPlace, .lanes = lanes});
             split.state[0] = GroupBuffers(context, plan.groups[0], true, inPlace, 300);
             const std::vector<GroupBuffers::Part>& parts = split.state[0].parts();
             REQUIRE(parts.size() >= 3);
@@ -108,13 +104,12 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
 
             RenderOptions size;
             size.width = 160, size.height = 120;
-            Renderer renderer(context, shaders, scene, plan, size);
+            Renderer renderer(context, scene, plan, size);
             renderer.draw(whole.state(), View::of(scene.camera));
             const Image expected = renderer.capture();
             renderer.draw({nullptr, &split.state}, View::of(scene.camera));
             CHECK(renderer.capture().pixels == expected.pixels);
-            renderer.draw(Simulation(context, shaders, plan, {.path = Path::fused}).state(),
-                          View::of(scene.camera));
+            renderer.draw(Simulation(context, plan, {.path = Path::fused}).state(), View::of(scene.camera));
             CHECK(renderer.capture().pixels != expected.pixels);
         }
     }

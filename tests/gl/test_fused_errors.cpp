@@ -24,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
-
 Scene leafScene() {
     Scene scene = test::swarm(test::leaf(150, 1), 33, SolverKind::euler);
     scene.groups[0].drag = {3, 1};
@@ -115,6 +113,7 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
     if (!test::canFuse()) return;
     const test::Scratch scratch;
     const fs::path root = scratch / "shaders";
+    const std::string shaders = testContext().shaders();
     struct Case {
         const char *file, *text;
         Lanes lanes;
@@ -129,13 +128,15 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
     for (const auto& [file, text, lanes] : cases) {
         fs::remove_all(root);
         fs::copy(shaders, root, fs::copy_options::recursive);
+        testContext().setShaders(root.string());
         Scene scene = leafScene();
         scene.groups[0].drag = {1, 1};
         const int line = spoil(root / file, text, " mistaken = nonsense;");
         const auto make = [&, way = lanes] {
-            Simulation(testContext(), root.string(), compile(scene), {.path = Path::fused, .lanes = way});
+            Simulation(testContext(), compile(scene), {.path = Path::fused, .lanes = way});
         };
         const std::string message = messageOf(make);
+        testContext().setShaders(shaders);
         INFO(message);
         CHECK(message.find(concat((root / file).string(), ":", line, ":")) == 0);
         CHECK_THAT(message, Catch::Contains("does not compile"));
@@ -146,7 +147,7 @@ TEST_CASE("without OpenGL 4.3 the fused path runs in fragments and says why", "[
     if (testContext().info().computeShaders) return;
     Scene scene = leafScene();
     const auto make = [&](Path path) {
-        return Simulation(testContext(), shaders, compile(scene), {.path = path}).path();
+        return Simulation(testContext(), compile(scene), {.path = path}).path();
     };
     CHECK(make(Path::fused).path == Path::fragments);
     CHECK_THAT(make(Path::fused).why, Catch::Contains("OpenGL 3.3 has no compute shaders"));
@@ -163,10 +164,9 @@ TEST_CASE("the ping-pong path refuses fields that are not read every substep", "
     Scene scene = leafScene();
     for (const FieldSampling sampling : {FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
         scene.solver.fieldSampling = sampling;
-        CHECK_THAT(
-            messageOf([&] { Simulation(testContext(), shaders, compile(scene), {.path = Path::pingPong}); }),
-            Catch::Contains("ping-pong") && Catch::Contains(name(sampling)) &&
-                Catch::Contains("needs the fused path"));
+        CHECK_THAT(messageOf([&] { Simulation(testContext(), compile(scene), {.path = Path::pingPong}); }),
+                   Catch::Contains("ping-pong") && Catch::Contains(name(sampling)) &&
+                       Catch::Contains("needs the fused path"));
     }
 }
 
@@ -195,14 +195,13 @@ TEST_CASE("the largest molecule that a workgroup holds runs, and one more is ref
     molecule.springs.clear();
     molecule.vertices.emplace_back();
     scene.groups[0].molecule = molecule;
-    CHECK_THAT(messageOf([&] { Simulation(testContext(), shaders, compile(scene), {.path = Path::fused}); }),
+    CHECK_THAT(messageOf([&] { Simulation(testContext(), compile(scene), {.path = Path::fused}); }),
                Catch::Contains(concat("has ", most + 1, " vertices; the fused path holds at most ", most)));
-    CHECK(Simulation(testContext(), shaders, compile(scene)).path().path == Path::pingPong);
+    CHECK(Simulation(testContext(), compile(scene)).path().path == Path::pingPong);
 
     scene.groups[0].molecule.vertices.resize(FusedLimits::laneVertices + 1);
     CHECK_THAT(messageOf([&] {
-                   Simulation(testContext(), shaders, compile(scene),
-                              {.path = Path::fused, .lanes = Lanes::molecule});
+                   Simulation(testContext(), compile(scene), {.path = Path::fused, .lanes = Lanes::molecule});
                }),
                Catch::Contains(concat("a lane holds at most ", FusedLimits::laneVertices)));
 }
@@ -216,7 +215,7 @@ TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fus
         // and the tables, and the watchdog's word
         const size_t tables = (plan.samples.size() + plan.topology.size()) * sizeof(glm::vec4);
         const LittleMemory memory(bytes + tables + sizeof(uint32_t));
-        return Simulation(testContext(), shaders, plan, options);
+        return Simulation(testContext(), plan, options);
     };
     Simulation roomy = make(two, {});
     CHECK(roomy.warnings().empty());

@@ -44,7 +44,7 @@ Simulation amongMany(int far, int near = 1) {
             {.name = concat("far ", i), .shape = SphereCollider{{50 + 3 * i, 0, 0}, 1}});
     for (int i = 0; i < near; ++i)
         scene.colliders.push_back({.name = concat("near ", i), .shape = SphereCollider{{0, -1, 0}, 1}});
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = testPath()});
+    return Simulation(testContext(), compile(scene), {.path = testPath()});
 }
 
 }  // namespace
@@ -320,8 +320,7 @@ TEST_CASE("a molecule among many colliders moves as among those that are near it
                     scene.colliders.push_back({.name = concat(i), .shape = SphereCollider{middle, 0.25}});
             }
             REQUIRE((compile(scene).colliderTurns > 0) == all);
-            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                                  {.path = testPath()});
+            Simulation simulation(testContext(), compile(scene), {.path = testPath()});
             test::run(simulation, 40);
             end[all] = simulation.snapshot(0).positions[0];
         }

@@ -20,8 +20,7 @@ namespace {
 constexpr SolverKind withHistory[] = {SolverKind::bdf2Xpbd, SolverKind::bdf2Corotated};
 
 Simulation fused(const Scene& scene, const CompileOptions& options = {}) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene, options),
-                      {.drawn = false, .path = Path::fused});
+    return Simulation(testContext(), compile(scene, options), {.drawn = false, .path = Path::fused});
 }
 
 }  // namespace

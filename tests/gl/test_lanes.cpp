@@ -23,8 +23,7 @@ using namespace shoal::test;
 namespace {
 
 Simulation on(const Plan& plan, Lanes lanes) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                      {.path = Path::fused, .lanes = lanes});
+    return Simulation(testContext(), plan, {.path = Path::fused, .lanes = lanes});
 }
 
 // One frame from the same state, to what roundings make of it.
@@ -247,9 +246,8 @@ TEST_CASE("what the forms cost a CPU rasteriser", "[.lanes-cost]") {
                 std::vector<double> starts, times[2];
                 for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
                     const double start = seconds();
-                    both.push_back(
-                        std::make_unique<Simulation>(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                                                     SimulationOptions{.path = Path::fused, .lanes = lanes}));
+                    both.push_back(std::make_unique<Simulation>(
+                        testContext(), plan, SimulationOptions{.path = Path::fused, .lanes = lanes}));
                     test::run(*both.back(), 1);
                     glFinish();
                     starts.push_back(seconds() - start);

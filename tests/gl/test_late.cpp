@@ -58,7 +58,7 @@ void setTime(Simulation& simulation, double time) {
 
 // How far the scene's molecules are from the reference's after 15 frames that begin late.
 double errorLate(const Scene& scene, const CompileOptions& compiled, const SimulationOptions& options) {
-    Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene, compiled), options);
+    Simulation simulation(testContext(), compile(scene, compiled), options);
     setTime(simulation, late);
     const int frames = 15, count = int(scene.groups[0].place.items.size());
     std::vector<reference::State> expected;
@@ -131,8 +131,8 @@ TEST_CASE("a school swims after a day as at the start", "[school][late]") {
     scene.groups[0].drag = {40, 1};
     scene.groups[0].school = School{};
     const SimulationOptions options = {.drawn = false, .path = Path::fused};
-    Simulation early(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), options);
-    Simulation now(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), options);
+    Simulation early(testContext(), compile(scene), options);
+    Simulation now(testContext(), compile(scene), options);
     setTime(now, 100 * 512 * std::numbers::pi);  // whole periods of what wanders
     test::run(early, 20);
     test::run(now, 20);

@@ -12,7 +12,7 @@ using namespace shoal::test;
 namespace {
 
 Simulation on(const Plan& plan) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, {.path = Path::fused});
+    return Simulation(testContext(), plan, {.path = Path::fused});
 }
 
 Scene swimmers(SolverKind solver) {

@@ -28,8 +28,7 @@ std::vector<Path> fusedPaths() {
 }
 
 Simulation simulationOn(Path path, Plan plan, bool drawn = false) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", std::move(plan),
-                      {.drawn = drawn, .path = path});
+    return Simulation(testContext(), std::move(plan), {.drawn = drawn, .path = path});
 }
 
 // Points of some masses, each with contact of one radius, in no gravity.

@@ -72,7 +72,7 @@ TEST_CASE("every kind of field moves molecules as the reference says", "[numeric
             scene.groups[0].drag = {3, 1.5};
             scene.fields = {test::field(shapes[i])};
             test::setSteps(scene, 1 / 60.0, 4);
-            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = path});
+            Simulation simulation(testContext(), compile(scene), {.path = path});
             std::vector<reference::State> expected;
             for (int m = 0; m < 3; ++m) {
                 expected.push_back(test::stateOf(simulation.snapshot(0), m));

@@ -100,11 +100,11 @@ TEST_CASE("the error across groups against the number of slabs", "[.order]") {
     other.molecule.material.color = {0.05, 0.2, 0.8};
     scene.groups.push_back(other);
     const Plan plan = compile(scene);
-    const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
     const auto picture = [&](int slabs, double& time) {
         RenderOptions options = pictureSize;
         options.slabs = slabs;
-        Renderer renderer(testContext(), shaderRoot(), scene, plan, options);
+        Renderer renderer(testContext(), scene, plan, options);
         for (int i = 0; i < 5; ++i)
             renderer.draw(simulation.state(), viewAt(0.3));
         time = milliseconds(renderer, "blended");
@@ -128,13 +128,13 @@ TEST_CASE("the error of a spread order on a moving camera against its saving", "
     material.sort = DrawSort::frame;
     const double step = 0.5 / 60;  // rad a frame: half a radian a second
     const Plan plan = compile(scene);
-    const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
-    Renderer exact(testContext(), shaderRoot(), scene, plan, pictureSize);
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
+    Renderer exact(testContext(), scene, plan, pictureSize);
     std::printf("frames  wrong pairs  mean of 255  pixels off by > 8  order ms\n");
     for (const int frames : {1, 2, 5, 10, 20, 50, 105}) {
         material.sort = DrawSort::spread;
         material.spreadFrames = frames;
-        Renderer renderer(testContext(), shaderRoot(), scene, plan, pictureSize);
+        Renderer renderer(testContext(), scene, plan, pictureSize);
         double wrong = 0, mean = 0, share = 0;
         int taken = 0;
         for (int frame = 0; frame < 3 * frames + 10; ++frame) {

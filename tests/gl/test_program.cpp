@@ -40,7 +40,7 @@ static std::vector<float> draw(const Program& program, const std::vector<ColorTa
 }
 
 TEST_CASE("uniforms of every kind arrive", "[program]") {
-    const Program program(testContext(), "nowhere",
+    const Program program(testContext(),
                           withFragment("uniform int i; uniform uint u; uniform bool b; uniform float f;\n"
                                        "uniform ivec2 i2; uniform ivec4 i4;\n"
                                        "uniform vec2 v2; uniform vec3 v3; uniform vec4 v4;\n"
@@ -77,7 +77,7 @@ TEST_CASE("uniforms of every kind arrive", "[program]") {
 
 TEST_CASE("a sampler reads the texture on its unit", "[program]") {
     const Program program(
-        testContext(), "nowhere",
+        testContext(),
         withFragment("uniform sampler2D one, two;\n"
                      "layout(location = 0) out vec4 color;\n"
                      "void main() {\n"
@@ -96,10 +96,9 @@ TEST_CASE("a sampler reads the texture on its unit", "[program]") {
 }
 
 TEST_CASE("a uniform block reads its buffer", "[program]") {
-    const Program program(testContext(), "nowhere",
-                          withFragment("layout(std140) uniform Types { vec4 types[2]; };\n"
-                                       "layout(location = 0) out vec4 color;\n"
-                                       "void main() { color = types[1]; }\n"));
+    const Program program(testContext(), withFragment("layout(std140) uniform Types { vec4 types[2]; };\n"
+                                                      "layout(location = 0) out vec4 color;\n"
+                                                      "void main() { color = types[1]; }\n"));
     const float data[] = {0, 0, 0, 0, 1, 2, 3, 4};
     const Buffer buffer(testContext(), Buffer::Use::uniform, data, sizeof data, "types");
     program.uniformBlock("Types", 2, buffer);
@@ -112,16 +111,15 @@ TEST_CASE("defines reach the shader", "[program]") {
         "layout(location = 0) out vec4 color;\n"
         "void main() { color = vec4(VALUE); }\n");
     options.defines = {"VALUE 7.5"};
-    const Program program(testContext(), "nowhere", options);
+    const Program program(testContext(), options);
     const Texture target(testContext(), Format::rgba32f, 2, 2, "target");
     CHECK(draw(program, {&target}).front() == 7.5f);
 }
 
 TEST_CASE("a declared uniform that the compiler drops is no mistake", "[program]") {
-    const Program program(testContext(), "nowhere",
-                          withFragment("uniform float unused;\n"
-                                       "layout(location = 0) out vec4 color;\n"
-                                       "void main() { color = vec4(1.0); }\n"));
+    const Program program(testContext(), withFragment("uniform float unused;\n"
+                                                      "layout(location = 0) out vec4 color;\n"
+                                                      "void main() { color = vec4(1.0); }\n"));
     program.use();
     CHECK_FALSE(program.uses("unused"));
     program.set("unused", 1.0f);
@@ -139,7 +137,7 @@ TEST_CASE("a compile error is located in our file", "[program]") {
         "// two\n"
         "vec4 broken() { return notDeclared; }\n";
     try {
-        const Program program(testContext(), "nowhere", options);
+        const Program program(testContext(), options);
         FAIL("compiled");
     } catch (const shoal::Error& error) {
         CHECK(error.location().file == "generated:lib/broken.glsl");
@@ -156,13 +154,16 @@ TEST_CASE("a link error names the program", "[program]") {
         "vec4 neverDefined();\n"
         "layout(location = 0) out vec4 color;\n"
         "void main() { color = neverDefined(); }\n");
-    CHECK_THROWS_WITH(Program(testContext(), "nowhere", options),
+    CHECK_THROWS_WITH(Program(testContext(), options),
                       Catch::Contains("program \"test\"") && Catch::Contains("neverDefined"));
 }
 
 TEST_CASE("a missing shader file is an error", "[program]") {
     ProgramOptions options = withFragment("");
     options.fragment = "missing.frag";
-    CHECK_THROWS_WITH(Program(testContext(), "nowhere", options),
-                      Catch::Contains("no shader file \"missing.frag\""));
+    CHECK_THROWS_WITH(Program(testContext(), options), Catch::Contains("no shader file \"missing.frag\""));
+    const std::string shaders = testContext().shaders();
+    testContext().setShaders("");
+    CHECK_THROWS_WITH(Program(testContext(), options), Catch::Contains("ContextOptions::shaders"));
+    testContext().setShaders(shaders);
 }

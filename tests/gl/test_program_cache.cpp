@@ -27,12 +27,18 @@ namespace {
 
 bool hasBinaries() {
     const Scratch scratch;
-    const bool active = ProgramCache(testContext(), scratch.path("cache")).active();
+    const bool active = ProgramCache(testContext().info(), scratch.path("cache")).active();
     if (!active) WARN("skipped: this context hands out no program binaries");
     return active;
 }
 
-ProgramOptions drawing(ProgramCache* cache, const std::string& body) {
+// Programs are kept in a folder while this lives.
+struct CacheIn {
+    explicit CacheIn(const std::string& folder) { testContext().setCache(folder); }
+    ~CacheIn() { testContext().setCache(""); }
+};
+
+ProgramOptions drawing(const std::string& body) {
     ProgramOptions options;
     options.vertex = "triangle.vert";
     options.fragment = "test.frag";
@@ -43,7 +49,6 @@ ProgramOptions drawing(ProgramCache* cache, const std::string& body) {
          "    gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);\n"
          "}\n"},
         {"test.frag", "layout(location = 0) out vec4 color;\n" + body}};
-    options.cache = cache;
     return options;
 }
 
@@ -85,8 +90,9 @@ struct Start {
 };
 
 Start start(const std::string& folder) {
-    ProgramCache cache(testContext(), folder);
-    const Program program(testContext(), "nowhere", drawing(&cache, body));
+    const CacheIn kept(folder);
+    ProgramCache& cache = testContext().cache();
+    const Program program(testContext(), drawing(body));
     CHECK(draw(program) == std::vector<float>{1, 20, 300, 4000});
     CHECK(program.uses("scale"));
     CHECK_FALSE(program.uses("unused"));
@@ -96,6 +102,11 @@ Start start(const std::string& folder) {
         out.warnings.push_back(text(warning));
     CHECK(cache.takeWarnings().empty());
     return out;
+}
+
+void make(const std::string& folder, const std::string& text) {
+    const CacheIn kept(folder);
+    Program(testContext(), drawing(text));
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
@@ -175,17 +186,17 @@ TEST_CASE("the second start takes the program from the cache", "[program-cache]"
 TEST_CASE("what runs is the program from the file", "[program-cache]") {
     if (!hasBinaries()) return;
     const Scratch scratch;
-    ProgramCache one(testContext(), scratch.path("one")), two(testContext(), scratch.path("two"));
     std::string otherBody = body;
     otherBody.replace(otherBody.find("scale * list"), 5, "100.0");
-    Program(testContext(), "nowhere", drawing(&one, body));
-    Program(testContext(), "nowhere", drawing(&two, otherBody));
+    make(scratch.path("one"), body);
+    make(scratch.path("two"), otherBody);
     // One file gets the other's program, and says nothing of it.
     const fs::path path = filesIn(scratch / "one").front();
     const std::string other = shoal::readFile(filesIn(scratch / "two").front());
     shoal::writeFile(path, sealed(other, path.stem().string()));
-    const Program program(testContext(), "nowhere", drawing(&one, body));
-    CHECK(one.hits() == 1);
+    const CacheIn kept(scratch.path("one"));
+    const Program program(testContext(), drawing(body));
+    CHECK(testContext().cache().hits() == 1);
     CHECK(draw(program) == std::vector<float>{50, 1000, 300, 4000});
 }
 
@@ -194,7 +205,7 @@ TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
     if (!testContext().info().computeShaders) return;
     const Scratch scratch;
     for (int round = 0; round < 2; ++round) {
-        ProgramCache cache(testContext(), scratch.path("cache"));
+        const CacheIn kept(scratch.path("cache"));
         ProgramOptions options;
         options.compute = "test.comp";
         options.generated = {{"test.comp",
@@ -202,9 +213,8 @@ TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
                               "layout(std430, binding = 5) buffer Numbers { float number[]; };\n"
                               "uniform float factor;\n"
                               "void main() { number[gl_GlobalInvocationID.x] *= factor; }\n"}};
-        options.cache = &cache;
-        const Program program(testContext(), "nowhere", options);
-        CHECK(cache.hits() == round);
+        const Program program(testContext(), options);
+        CHECK(testContext().cache().hits() == round);
         const std::vector<float> numbers = {1, 2, 3, 4};
         const Buffer buffer(testContext(), Buffer::Use::storage, std::span<const float>(numbers), "numbers");
         program.use();
@@ -232,8 +242,7 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
         return bytes;
     };
     // The whole file of another program, under this one's name.
-    ProgramCache other(testContext(), scratch.path("other"));
-    Program(testContext(), "nowhere", drawing(&other, "void main() { color = vec4(7.0); }\n"));
+    make(scratch.path("other"), "void main() { color = vec4(7.0); }\n");
     const std::string another = shoal::readFile(filesIn(scratch.path("other")).front());
 
     struct Damage {
@@ -281,10 +290,11 @@ TEST_CASE("a folder that cannot be written is told once", "[program-cache]") {
     if (!hasBinaries()) return;
     const Scratch scratch;
     const std::string file = scratch.write("file", "in the way\n");
-    ProgramCache cache(testContext(), file + "/cache");
+    const CacheIn kept(file + "/cache");
+    ProgramCache& cache = testContext().cache();
     for (const char* color : {"1.0", "2.0", "3.0"}) {
         const std::string text = std::string("void main() { color = vec4(") + color + "); }\n";
-        CHECK_NOTHROW(Program(testContext(), "nowhere", drawing(&cache, text)));
+        CHECK_NOTHROW(Program(testContext(), drawing(text)));
     }
     CHECK(cache.misses() == 3);
     const std::vector<shoal::Warning> warnings = cache.takeWarnings();
@@ -332,16 +342,16 @@ TEST_CASE("the oldest programs make room", "[program-cache]") {
 
 TEST_CASE("a program that does not compile leaves nothing in the cache", "[program-cache]") {
     const Scratch scratch;
-    ProgramCache cache(testContext(), scratch.path("cache"));
-    CHECK_THAT(messageOf([&] { Program(testContext(), "nowhere", drawing(&cache, "void main() { x; }\n")); }),
+    const CacheIn kept(scratch.path("cache"));
+    CHECK_THAT(messageOf([&] { Program(testContext(), drawing("void main() { x; }\n")); }),
                Catch::Contains("does not compile"));
     CHECK_FALSE(fs::exists(scratch / "cache"));
-    CHECK(cache.takeWarnings().empty());
+    CHECK(testContext().cache().takeWarnings().empty());
 }
 
 TEST_CASE("a cache without a folder or without binaries does nothing", "[program-cache]") {
     const Scratch scratch;
-    const bool active = ProgramCache(testContext(), scratch.path("cache")).active();
+    const bool active = ProgramCache(testContext().info(), scratch.path("cache")).active();
     if (!testContext().info().atLeast(4, 1)) CHECK_FALSE(active);
     const Start without = start(active ? "" : scratch.path("cache"));
     CHECK(without.hits + without.misses == 0);

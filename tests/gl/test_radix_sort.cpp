@@ -15,8 +15,6 @@ using Way = RadixSort::Way;
 
 namespace {
 
-const char* const shaders = SHOAL_SOURCE_DIR "/shaders";
-
 bool hasCompute() {
     if (!testContext().info().computeShaders) WARN("skipped: this context has no compute shaders");
     return testContext().info().computeShaders;
@@ -34,7 +32,7 @@ Pairs sortedBy(RadixSort& sort, const Pairs& input, size_t count, int keyBits) {
 
 TEST_CASE("radix sort by pieces equals a stable sort at every size", "[sort]") {
     if (!hasCompute()) return;
-    RadixSort sort(testContext(), shaders, 3000, nullptr, Way::pieces);
+    RadixSort sort(testContext(), 3000, Way::pieces);
     for (size_t count = 1; count <= 130; ++count) {
         const Pairs input = randomPairs(count, uint32_t(count));
         INFO(count << " pairs");
@@ -51,7 +49,7 @@ TEST_CASE("radix sort by pieces equals a stable sort at every size", "[sort]") {
 
 TEST_CASE("radix sort by tiles equals a stable sort around the size of a tile", "[sort]") {
     if (!hasCompute()) return;
-    RadixSort sort(testContext(), shaders, 5000, nullptr, Way::tiles);
+    RadixSort sort(testContext(), 5000, Way::tiles);
     for (const size_t count : {1, 2, 7, 8, 9, 255, 257, 2047, 2048, 2049, 4096, 5000}) {
         const Pairs input = randomPairs(count, uint32_t(count));
         INFO(count << " pairs");
@@ -67,7 +65,7 @@ TEST_CASE("radix sort by tiles equals a stable sort around the size of a tile", 
 TEST_CASE("radix sort counts only the low bits of a key, and keeps the others", "[sort]") {
     if (!hasCompute()) return;
     for (const Way way : {Way::pieces, Way::tiles}) {
-        RadixSort sort(testContext(), shaders, 700, nullptr, way);
+        RadixSort sort(testContext(), 700, way);
         const Pairs input = randomPairs(700, 5);
         for (const int bits : {0, 1, 3, 4, 5, 8, 9, 11, 12, 16, 17, 22, 23, 31}) {
             INFO((way == Way::pieces ? "pieces, " : "tiles, ") << bits << " bits");
@@ -79,7 +77,7 @@ TEST_CASE("radix sort counts only the low bits of a key, and keeps the others", 
 TEST_CASE("radix sort of a part leaves the rest of the buffer alone", "[sort]") {
     if (!hasCompute()) return;
     for (const Way way : {Way::pieces, Way::tiles}) {
-        RadixSort sort(testContext(), shaders, 4096, nullptr, way);
+        RadixSort sort(testContext(), 4096, way);
         const Pairs input = randomPairs(4096, 6);
         for (const size_t count : {0, 1, 2, 1000, 4095}) {
             Pairs expected = sorted(Pairs(input.begin(), input.begin() + long(count)), 24);
@@ -92,7 +90,7 @@ TEST_CASE("radix sort of a part leaves the rest of the buffer alone", "[sort]") 
 TEST_CASE("radix sort of many pairs, in digits of 11 bits, and again to the bit", "[sort]") {
     if (!hasCompute()) return;
     const size_t count = 70001;
-    RadixSort sort(testContext(), shaders, count, nullptr, Way::pieces);
+    RadixSort sort(testContext(), count, Way::pieces);
     CHECK(sort.passes(count, 32) == 3);
     CHECK(sort.passes(count, 17) == 2);
     CHECK(sort.passes(1000, 32) == 4);
@@ -109,7 +107,7 @@ TEST_CASE("radix sort of more pairs than a lane can go over at once", "[sort]") 
     if (!hasCompute()) return;
     // with 32 lanes 62,500 turns and those over the digits would be more than Mesa's rasterisers take
     for (const size_t count : {size_t(2000000), size_t(40 * 61436), size_t(40 * 61436 + 1)}) {
-        RadixSort sort(testContext(), shaders, count, nullptr, Way::pieces);
+        RadixSort sort(testContext(), count, Way::pieces);
         const Pairs input = randomPairs(count, 9);
         REQUIRE((sortedBy(sort, input, count, 32) == sorted(input)));
     }
@@ -118,7 +116,7 @@ TEST_CASE("radix sort of more pairs than a lane can go over at once", "[sort]") 
 TEST_CASE("radix sort of more tiles than a workgroup adds up at once", "[sort]") {
     if (!hasCompute()) return;
     const size_t count = 256 * 2048 + 4001;
-    RadixSort sort(testContext(), shaders, count, nullptr, Way::tiles);
+    RadixSort sort(testContext(), count, Way::tiles);
     const Pairs input = randomPairs(count, 8);
     REQUIRE((sortedBy(sort, input, count, 7) == sorted(input, 7)));
 }
@@ -134,8 +132,8 @@ TEST_CASE("radix sort sees what a shader wrote, and moves nothing over the bus",
                           "    uint i = gl_GlobalInvocationID.x;\n"
                           "    pairs[i] = uvec2((i * 7919u) % 4096u, i);\n"
                           "}\n"}};
-    const gpu::Program fill(testContext(), "nowhere", options);
-    RadixSort sort(testContext(), shaders, 4096);
+    const gpu::Program fill(testContext(), options);
+    RadixSort sort(testContext(), 4096);
     Buffer pairs(testContext(), Buffer::Use::storage, nullptr, 4096 * sizeof(Pair), "pairs");
     const gpu::Traffic before = testContext().traffic();
     fill.use();
@@ -156,13 +154,13 @@ TEST_CASE("radix sort refuses what the context cannot hold", "[sort]") {
     const size_t most = RadixSort::most(info);
     if (!info.computeShaders) {
         CHECK(most == 0);
-        CHECK(messageOf([] { RadixSort(testContext(), shaders, 10); }) ==
+        CHECK(messageOf([] { RadixSort(testContext(), 10); }) ==
               concat("radix sort needs compute shaders, OpenGL 4.3; this context has ", info.major, ".",
                      info.minor));
         return;
     }
     CHECK(most >= size_t(1) << 20);
     CHECK(most * sizeof(Pair) <= size_t(info.maxStorageBlockBytes));
-    CHECK(messageOf([&] { RadixSort(testContext(), shaders, most + 1); }) ==
+    CHECK(messageOf([&] { RadixSort(testContext(), most + 1); }) ==
           concat("radix sort of ", most + 1, " pairs is larger than this context can hold: ", most));
 }

@@ -183,9 +183,8 @@ TEST_CASE("a picture takes another size, and every number of samples", "[render]
     Scene scene = sceneOfSquares({{0, 0, 0}});
     const Plan plan = compile(scene);
     for (const int samples : {1, 4}) {
-        Renderer renderer(testContext(), shaderRoot(), scene, plan,
-                          {.width = 64, .height = 48, .samples = samples});
-        const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
+        Renderer renderer(testContext(), scene, plan, {.width = 64, .height = 48, .samples = samples});
+        const Simulation simulation(testContext(), plan, {.path = testPath()});
         renderer.resize(101, 37);
         renderer.draw(simulation.state(), View::of(scene.camera));
         const Image image = renderer.capture();

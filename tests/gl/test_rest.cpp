@@ -17,8 +17,7 @@ using glm::dvec3;
 namespace {
 
 Simulation fusedOf(const Scene& scene) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                      {.drawn = false, .path = Path::fused});
+    return Simulation(testContext(), compile(scene), {.drawn = false, .path = Path::fused});
 }
 
 PlaneCollider floorAt(double height) {
@@ -106,8 +105,7 @@ TEST_CASE("an impact on what rests is that on what does not", "[rest]") {
         for (glm::vec2& pair : plan.contact.pairs)
             pair = {1, 0};
         plan.groups[0].start.velocities[4] = {1, 0, 0};
-        Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                              {.drawn = false, .path = Path::fused});
+        Simulation simulation(testContext(), plan, {.drawn = false, .path = Path::fused});
         run(simulation, 60);
         CHECK(resting(simulation) == (rests ? 4 : 0));
         run(simulation, 30);
@@ -227,8 +225,7 @@ TEST_CASE("what rests wakes when a slider or a field changes what acts on it", "
 
 TEST_CASE("where nothing rests a warning says so", "[rest]") {
     const Scene scene = marbles({{0, 0.05, 0}});
-    const Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                                {.drawn = false, .path = Path::pingPong});
+    const Simulation simulation(testContext(), compile(scene), {.drawn = false, .path = Path::pingPong});
     REQUIRE(simulation.warnings().size() == 1);
     CHECK_THAT(simulation.warnings()[0].message, Catch::Contains("\"rest\" changes nothing here"));
     if (!canFuse()) return;

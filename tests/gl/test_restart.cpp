@@ -14,8 +14,7 @@ TEST_CASE("a restart recovers from any state, and no undefined texel is ever use
     Scene scene = sceneOf(test::leaf(150, 1), SolverKind::leapfrog, {at({0, 1, 0}), at({1, 2, 3})});
     scene.gravity = {0, -9.81, 0};
     scene.groups[0].drag = {6, 1};
-    Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                          {.path = testPath(), .watchdog = false});
+    Simulation simulation(testContext(), compile(scene), {.path = testPath(), .watchdog = false});
     run(simulation, 5);
     const uint64_t before = simulation.hash();
     simulation.parameters.gravity = glm::dvec3(std::numeric_limits<double>::quiet_NaN());

@@ -72,7 +72,7 @@ Scene pond(int count) {
 
 struct Run {
     explicit Run(const Scene& scene, SimulationOptions options = {})
-        : simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), fused(options)) {}
+        : simulation(testContext(), compile(scene), fused(options)) {}
     static SimulationOptions fused(SimulationOptions options) {
         options.path = Path::fused;
         options.drawn = false;
@@ -330,8 +330,7 @@ TEST_CASE("Compute shaders and fragments steer and swim alike, and hand over to 
     const Scene scene = pond(60);
     Run compute(scene);
     const Plan plan = compile(scene);
-    Simulation fragments(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
-                         {.drawn = false, .path = Path::fragments});
+    Simulation fragments(testContext(), plan, {.drawn = false, .path = Path::fragments});
     for (const int frames : {0, 20}) {
         compute.frames(frames);
         fragments.load(compute.simulation.save());
@@ -359,7 +358,6 @@ TEST_CASE("The ping-pong path says that it has no schools", "[school]") {
     const Scene scene = pond(5);
     SimulationOptions options;
     options.path = Path::pingPong;
-    CHECK_THAT(
-        messageOf([&] { Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), options); }),
-        Contains("schooling needs the fused path"));
+    CHECK_THAT(messageOf([&] { Simulation(testContext(), compile(scene), options); }),
+               Contains("schooling needs the fused path"));
 }

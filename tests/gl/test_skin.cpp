@@ -78,8 +78,8 @@ TEST_CASE("far skins are drawn with fewer triangles, and look the same", "[rende
     gpu::Context& context = testContext();
     const Plan plan = compile(scene);
     const auto triangles = [&](const RenderOptions& options) {
-        Renderer renderer(context, shaderRoot(), scene, plan, options);
-        Simulation simulation(context, shaderRoot(), plan, {.path = testPath()});
+        Renderer renderer(context, scene, plan, options);
+        Simulation simulation(context, plan, {.path = testPath()});
         renderer.draw(simulation.state(), View::of(scene.camera));
         return renderer.drawnPrimitives();
     };

@@ -15,8 +15,6 @@ using namespace sorting;
 
 namespace {
 
-const char* const shaders = SHOAL_SOURCE_DIR "/shaders";
-
 std::vector<SortMethodRow> methodsHere() {
     std::vector<SortMethodRow> out;
     for (const SortMethodRow& method : sortMethods())
@@ -71,7 +69,7 @@ uint64_t displacement(const Pairs& pairs) {
 
 TEST_CASE("every sort sorts every number of pairs around powers of two", "[sort]") {
     for (const SortMethodRow& method : methodsHere()) {
-        Sorter sorter(testContext(), shaders, method.method, 128, method.network ? 16 : 0);
+        Sorter sorter(testContext(), method.method, 128, method.network ? 16 : 0);
         for (size_t count = 0; count <= 128; ++count) {
             INFO(method.name << ", " << count << " pairs");
             const Pairs input = randomPairs(count, uint32_t(count));
@@ -84,7 +82,7 @@ TEST_CASE("every sort sorts every number of pairs around powers of two", "[sort]
 TEST_CASE("every sort sorts inputs of every kind, and again to the bit", "[sort]") {
     for (const SortMethodRow& method : methodsHere()) {
         for (const size_t count : {255, 256, 257, 1000}) {
-            Sorter sorter(testContext(), shaders, method.method, count);
+            Sorter sorter(testContext(), method.method, count);
             for (const Input& input : inputs(count, 3)) {
                 INFO(method.name << ", " << count << " pairs, " << input.name);
                 const Pairs output = sortedBy(sorter, input.pairs);
@@ -99,7 +97,7 @@ TEST_CASE("the networks sort all zeros and ones, and so everything", "[sort]") {
     // Knuth 3, 5.3.4, theorem Z, for 11 pairs: a number of rows and a row that are not full.
     const size_t count = 11;
     for (const SortMethod method : {SortMethod::oddEvenMerge, SortMethod::bitonic}) {
-        Sorter sorter(testContext(), shaders, method, count, 4);
+        Sorter sorter(testContext(), method, count, 4);
         for (uint32_t bits = 0; bits < 1u << count; bits += method == SortMethod::bitonic ? 1 : 3) {
             Pairs input(count);
             for (uint32_t i = 0; i < count; ++i)
@@ -114,7 +112,7 @@ TEST_CASE("the networks sort all zeros and ones, and so everything", "[sort]") {
 
 TEST_CASE("sorting rows only sorts each row by itself", "[sort]") {
     for (const int length : {2, 4, 16, 64}) {
-        Sorter sorter(testContext(), shaders, SortMethod::bitonic, 200, length);
+        Sorter sorter(testContext(), SortMethod::bitonic, 200, length);
         for (const size_t count : {1, 2, 63, 64, 65, 199, 200}) {
             INFO(count << " pairs in rows of " << length);
             const Pairs input = randomPairs(count, 4);
@@ -134,7 +132,7 @@ TEST_CASE("sorting rows only sorts each row by itself", "[sort]") {
 
 TEST_CASE("a spread sort ends sorted, and no part of it makes the order worse", "[sort]") {
     for (const size_t count : {2, 3, 100, 128, 300}) {
-        Sorter sorter(testContext(), shaders, SortMethod::oddEvenMerge, count);
+        Sorter sorter(testContext(), SortMethod::oddEvenMerge, count);
         for (const int frames : {1, 3, 20, 100}) {
             for (const Input& input : inputs(count, 8)) {
                 INFO(count << " pairs, " << frames << " frames, " << input.name);
@@ -156,7 +154,7 @@ TEST_CASE("a spread sort ends sorted, and no part of it makes the order worse", 
 }
 
 TEST_CASE("a spread sort takes as many passes a frame as its share, and starts again", "[sort]") {
-    Sorter sorter(testContext(), shaders, SortMethod::oddEvenMerge, 64);
+    Sorter sorter(testContext(), SortMethod::oddEvenMerge, 64);
     const Pairs input = randomPairs(64, 9);
     sorter.upload(input);
     CHECK(sorter.passes() == 21);
@@ -182,8 +180,7 @@ TEST_CASE("the networks take the passes that their papers count", "[sort]") {
 
 TEST_CASE("where asked, a bitonic sort leaves equal keys in the order of their indices", "[sort]") {
     const size_t count = 777;
-    NetworkSort sort(testContext(), shaders, NetworkSort::Kind::bitonic, count, 64, nullptr,
-                     NetworkSort::Ties::byIndex);
+    NetworkSort sort(testContext(), NetworkSort::Kind::bitonic, count, 64, NetworkSort::Ties::byIndex);
     std::vector<KeyIndex> pairs((count + 63) / 64 * 64);
     for (uint32_t i = 0; i < count; ++i)
         pairs[i] = {i * 7919 % 13, i};
@@ -205,14 +202,13 @@ TEST_CASE("a sort larger than the context can hold says what fits", "[sort]") {
         const size_t most = method.network ? NetworkSort::most(info, kind) : RadixSort::most(info);
         CHECK(most >= size_t(1) << 20);
         const std::string word = method.network ? concat(method.name, " sort") : "radix sort";
-        CHECK(messageOf([&] { Sorter(testContext(), shaders, method.method, most + 1); }) ==
+        CHECK(messageOf([&] { Sorter(testContext(), method.method, most + 1); }) ==
               concat(word, " of ", most + 1, " pairs is larger than this context can hold: ", most));
     }
     const int size = testContext().info().maxTextureSize;
-    CHECK(messageOf([&] {
-              Sorter(testContext(), shaders, SortMethod::oddEvenMerge, size_t(size) * 2 + 1, 2);
-          }) == concat("odd-even merge sort of ", size * 2 + 1,
-                       " pairs in rows of 2 does not fit into a texture of this context, of at most ", size,
-                       " x ", size, " texels"));
+    CHECK(messageOf([&] { Sorter(testContext(), SortMethod::oddEvenMerge, size_t(size) * 2 + 1, 2); }) ==
+          concat("odd-even merge sort of ", size * 2 + 1,
+                 " pairs in rows of 2 does not fit into a texture of this context, of at most ", size, " x ",
+                 size, " texels"));
     testContext().checkErrors("refused sorts");
 }

@@ -34,12 +34,11 @@ std::vector<NamedFile> sceneFiles() {
 BenchDevice deviceHere() {
     BenchDevice out;
     out.context = &testContext();
-    out.shaderRoot = SHOAL_SOURCE_DIR "/shaders";
     return out;
 }
 
 Image draw(const Scene& scene, const Simulation& simulation) {
-    Renderer renderer(testContext(), test::shaderRoot(), scene, simulation.plan(),
+    Renderer renderer(testContext(), scene, simulation.plan(),
                       {.width = blockColumns * blockSide, .height = blockRows * blockSide});
     renderer.draw(simulation.state(), View::of(scene.camera, simulation.time()));
     return renderer.capture();
@@ -94,7 +93,7 @@ TEST_CASE("a stored state holds where it was made, and not after a wrong step", 
     const StoredState& state = *stored.find(hello);
     const Scene scene = checkedScene(models + "/hello/hello.scene.json");
     const BenchDevice device = deviceHere();
-    Simulation simulation(testContext(), device.shaderRoot, compile(scene), {.drawn = false});
+    Simulation simulation(testContext(), compile(scene), {.drawn = false});
     const auto worst = [&](double gravity) {
         simulation.restart();
         simulation.parameters.gravity.y = gravity;

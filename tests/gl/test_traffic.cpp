@@ -11,14 +11,12 @@ using Kind = gpu::Traffic::Kind;
 static gpu::Traffic trafficOfFrames(gpu::PassTimers::Mode timing, int frames) {
     const Scene scene = readScene(SHOAL_SOURCE_DIR "/models/hello/hello.scene.json");
     const Plan plan = compile(scene);
-    const std::string shaders = SHOAL_SOURCE_DIR "/shaders";
-    Simulation simulation(testContext(), shaders, plan,
-                          {.drawn = true, .timing = timing, .path = testPath()});
+    Simulation simulation(testContext(), plan, {.drawn = true, .timing = timing, .path = testPath()});
     RenderOptions size;
     size.width = 160;
     size.height = 90;
     size.shadowSize = 256;
-    Renderer renderer(testContext(), shaders, scene, plan, size);
+    Renderer renderer(testContext(), scene, plan, size);
     const gpu::Traffic before = testContext().traffic();
     REQUIRE(before.up(Kind::state) > 0);  // the start state did cross, so the counter counts
     for (int i = 0; i < frames; ++i) {
@@ -44,7 +42,7 @@ TEST_CASE("timing passes with queries stays within the control bytes", "[traffic
 
 TEST_CASE("reading a snapshot is counted as state", "[traffic]") {
     const Plan plan = compile(readScene(SHOAL_SOURCE_DIR "/models/hello/hello.scene.json"));
-    Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, {.path = testPath()});
+    Simulation simulation(testContext(), plan, {.path = testPath()});
     const gpu::Traffic before = testContext().traffic();
     simulation.snapshot(0);
     CHECK((testContext().traffic() - before).down(Kind::state) > 0);

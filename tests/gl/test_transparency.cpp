@@ -190,8 +190,8 @@ TEST_CASE("what is blended is hidden by what is in front, and hides nothing", "[
 TEST_CASE("the order within a group is exact while the camera moves", "[render][transparency]") {
     const Scene scene = sceneInBox(500, DrawSort::frame, 1);
     const Plan plan = compile(scene);
-    Renderer renderer(testContext(), shaderRoot(), scene, plan, small);
-    const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
+    Renderer renderer(testContext(), scene, plan, small);
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
     for (int frame = 0; frame < 8; ++frame) {
         const View view = viewAt(0.7 * frame);
         const gpu::Traffic before = testContext().traffic();
@@ -209,8 +209,8 @@ TEST_CASE("a spread order follows the camera, and is exact once it rests", "[ren
     const int frames = 12;
     const Scene scene = sceneInBox(300, DrawSort::spread, frames);
     const Plan plan = compile(scene);
-    Renderer renderer(testContext(), shaderRoot(), scene, plan, small);
-    const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
+    Renderer renderer(testContext(), scene, plan, small);
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
     const auto wrongAt = [&](double angle) {
         renderer.draw(simulation.state(), viewAt(angle));
         const std::vector<KeyIndex> order = renderer.orderOf(0)->download();
@@ -231,9 +231,9 @@ TEST_CASE("where nothing is blended there is no pass for it", "[render][transpar
     const auto passNames = [](Blend blend) {
         const Scene scene = sceneOfPanes(blend, 0.5);
         const Plan plan = compile(scene);
-        Renderer renderer(testContext(), shaderRoot(), scene, plan,
+        Renderer renderer(testContext(), scene, plan,
                           {.width = 64, .height = 64, .timing = gpu::PassTimers::Mode::finish});
-        const Simulation simulation(testContext(), shaderRoot(), plan, {.path = testPath()});
+        const Simulation simulation(testContext(), plan, {.path = testPath()});
         renderer.draw(simulation.state(), View::of(scene.camera));
         std::vector<std::string> names;
         for (const gpu::PassTime& pass : renderer.timers().report())

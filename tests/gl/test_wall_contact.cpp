@@ -14,7 +14,7 @@ using test::at;
 namespace {
 
 Simulation simulationOn(Path path, const Scene& scene) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = path});
+    return Simulation(testContext(), compile(scene), {.path = path});
 }
 
 // Compute shaders, where there are some, and fragments.

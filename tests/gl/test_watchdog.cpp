@@ -45,7 +45,7 @@ bool hasTwoSides(const SimulationOptions& options) {
 }
 
 Simulation make(const Plan& plan, const SimulationOptions& options) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
+    return Simulation(testContext(), plan, options);
 }
 
 // Two groups, of which the second is looked at; quads high in the air.

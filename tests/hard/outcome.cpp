@@ -107,9 +107,8 @@ bool onPingPong() {
 }
 
 Simulation hardSimulation(const Scene& scene, bool drawn) {
-    static gpu::ProgramCache cache(testContext(), cacheFolder());
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
-                      {.drawn = drawn, .path = testPath(), .cache = &cache});
+    [[maybe_unused]] static const bool kept = (testContext().setCache(cacheFolder()), true);
+    return Simulation(testContext(), compile(scene), {.drawn = drawn, .path = testPath()});
 }
 
 void runChecked(Simulation& simulation, int frames) {

@@ -13,6 +13,7 @@
 #include "core/file_watch.h"
 #include "core/printable.h"
 #include "molecule/molecule_file.h"
+#include "run/data_paths.h"
 #include "window/editor/editor.h"
 #include "window/window_loop.h"
 
@@ -35,7 +36,7 @@ class EditorWindow : public WindowLoop {
   public:
     EditorWindow(Document document, const WindowOptions& options, gpu::Context& context)
         : WindowLoop(options, context),
-          stage_(context, cache()),
+          stage_(context),
           editor_(std::move(document)),
           camera_(viewOf(editor_.molecule(), {0.8, 0.45, 1})) {
         file_.watch({editor_.document.file()});
@@ -367,7 +368,7 @@ class EditorWindow : public WindowLoop {
 
     void measure() {
         try {
-            editor_.cost = measureCost(context(), cache(), editor_.molecule(), editor_.stage);
+            editor_.cost = measureCost(context(), editor_.molecule(), editor_.stage);
             editor_.costVersion = editor_.version;
             troubles.end("cost");
         } catch (const Error& error) {
@@ -431,7 +432,7 @@ static Document documentOf(const std::string& file, const std::string& shapeName
 void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
                int height) {
     Document document = documentOf(file, shape);  // mistakes are told before there is a window
-    gpu::ContextOptions wanted;
+    gpu::ContextOptions wanted = contextOptions();
     wanted.kind = gpu::ContextKind::window;
     wanted.preferWindow = true;
     wanted.width = width;

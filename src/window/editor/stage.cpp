@@ -7,7 +7,6 @@
 #include "core/json_edit.h"
 #include "gpu/gl.h"
 #include "molecule/molecule_json.h"
-#include "run/data_paths.h"
 #include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "window/editor/overlay.h"
@@ -47,8 +46,7 @@ bool sameLooks(const Molecule& a, const Molecule& b) {
 
 }  // namespace
 
-EditorStage::EditorStage(gpu::Context& context, gpu::ProgramCache& cache)
-    : context_(&context), cache_(&cache) {}
+EditorStage::EditorStage(gpu::Context& context) : context_(&context) {}
 
 Scene EditorStage::sceneOf(const Molecule& molecule, const StageSettings& settings) const {
     using Around = StageSettings::Around;
@@ -120,7 +118,7 @@ void EditorStage::show(const Molecule& molecule, const StageSettings& settings) 
         options.height = renderer_ ? renderer_->height() : 64;
         options.grid = true;
         renderer_.reset();
-        renderer_ = std::make_unique<Renderer>(*context_, shaderRoot(), scene_, plan, options);
+        renderer_ = std::make_unique<Renderer>(*context_, scene_, plan, options);
         drawn_ = molecule;
     }
     if (played_.empty() || frame_ == 0) {
@@ -140,10 +138,7 @@ void EditorStage::show(const Molecule& molecule, const StageSettings& settings) 
 void EditorStage::rebuild(Plan plan, bool goOn) {
     std::optional<SavedState> saved;
     if (goOn && simulation_) saved = wobbling_ ? played_[size_t(frame_)] : simulation_->save();
-    SimulationOptions options;
-    options.cache = cache_;
-    auto made = std::make_unique<Simulation>(*context_, shaderRoot(), plan, options);
-    simulation_ = std::move(made);
+    simulation_ = std::make_unique<Simulation>(*context_, plan);
     if (!saved) {
         played_.clear();
         frame_ = 0;
@@ -241,8 +236,8 @@ Image EditorStage::picture(const View& view, int width, int height) {
     return renderer_->capture();
 }
 
-MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule,
-                         const StageSettings& settings, int count) {
+MoleculeCost measureCost(gpu::Context& context, const Molecule& molecule, const StageSettings& settings,
+                         int count) {
     Scene scene;
     scene.gravity = {0, -settings.gravity, 0};
     scene.solver.substeps = settings.substeps;
@@ -263,8 +258,7 @@ MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const 
 
     SimulationOptions options;
     options.drawn = false;
-    options.cache = &cache;
-    Simulation simulation(context, shaderRoot(), compile(scene), options);
+    Simulation simulation(context, compile(scene), options);
     const auto frame = [&] {
         const auto begin = std::chrono::steady_clock::now();
         simulation.frame();

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/image.h"
-#include "gpu/program_cache.h"
 #include "molecule/analysis.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -30,7 +29,7 @@ struct StageSettings {
 
 class EditorStage {
   public:
-    EditorStage(gpu::Context& context, gpu::ProgramCache& cache);
+    EditorStage(gpu::Context& context);
 
     // Shows a valid molecule, played by `settings`; takes over what differs from before. Error: compile's;
     // the stage goes on as it was.
@@ -75,7 +74,6 @@ class EditorStage {
     void applyPull();
 
     gpu::Context* context_;
-    gpu::ProgramCache* cache_;
     Scene scene_;
     StageSettings settings_;
     Molecule drawn_;  // that the renderer was made for
@@ -95,7 +93,7 @@ struct MoleculeCost {
     std::string machine;            // in words
 };
 // Steps `count` of the molecule in a field of gusts for about a tenth of a second. Error: compile's.
-MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule,
-                         const StageSettings& settings, int count = 4096);
+MoleculeCost measureCost(gpu::Context& context, const Molecule& molecule, const StageSettings& settings,
+                         int count = 4096);
 
 }  // namespace shoal::window
