@@ -6,6 +6,7 @@
 #include <random>
 
 #include "gpu/gl.h"
+#include "gpu/program_cache.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
@@ -31,16 +32,20 @@ class ScratchFolder {
     std::filesystem::path path;
 };
 
-double firstFrame(const Plan& plan, const BenchDevice& device, const std::string& cache) {
+// With this folder for linked programs.
+double firstFrame(const Plan& plan, const BenchDevice& device, const std::string& folder) {
+    gpu::ProgramCache& cache = device.context->cache();
+    gpu::ProgramCache usual = std::exchange(cache, gpu::ProgramCache(device.context->info(), folder));
     const SimulationOptions options{.drawn = false, .path = Path::fused};
     Plan own = plan;
-    device.context->setCache(cache);
     glFinish();
     const Clock::time_point start = Clock::now();
     Simulation simulation(*device.context, std::move(own), options);
     simulation.frame();
     glFinish();
-    return secondsSince(start);
+    const double out = secondsSince(start);
+    cache = std::move(usual);
+    return out;
 }
 
 // A molecule of a slightly different shape, which no cache has seen: its rest lengths are the kernel's

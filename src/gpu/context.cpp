@@ -220,7 +220,7 @@ Context::Context(const ContextOptions& options) {
         try {
             state_ = open(kind, options);
             setShaders(options.shaders);
-            setCache(options.cache);
+            state_->cache = std::make_unique<ProgramCache>(info(), options.cache);
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());
@@ -230,10 +230,6 @@ Context::Context(const ContextOptions& options) {
     restore(before);
     if (options.device) throw Error("EGL's device cannot be used:" + tried);
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
-}
-
-void Context::setCache(const std::string& folder) {
-    state_->cache = std::make_unique<ProgramCache>(info(), folder);
 }
 
 void Context::makeCurrent() {

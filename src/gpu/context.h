@@ -132,10 +132,9 @@ class Context {
     const ContextInfo& info() const { return state_->info; }
     Traffic& traffic() { return state_->traffic; }
     const std::string& shaders() const { return state_->shaders; }
-    ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h
+    ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h; may be given another
     // For programs that are made from now on.
     void setShaders(const std::string& folder) { state_->shaders = folder; }
-    void setCache(const std::string& folder);
     // Files on disk that programs of this context were made of.
     const std::set<std::string>& shaderFiles() const { return state_->shaderFiles; }
     void noteShaderFile(const std::string& file) { state_->shaderFiles.insert(file); }

@@ -21,7 +21,7 @@ struct Line {
 
 class LineDrawer {
   public:
-    LineDrawer(gpu::Context& context);
+    explicit LineDrawer(gpu::Context& context);
 
     // `width`: pixels. 144 bytes a line cross the bus, as parameters.
     void draw(const std::vector<Line>& lines, double width, const DrawInputs& inputs);

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
         const char* word = std::getenv("SHOAL_TEST_CONTEXT");
         ContextOptions options;
         options.shaders = SHOAL_SOURCE_DIR "/shaders";
+        if (const char* folder = std::getenv("SHOAL_CACHE")) options.cache = folder;
         options.kind = contextKind(word != nullptr ? word : "egl");
         options.width = options.height = 64;
         options.visible = false;

@@ -34,14 +34,13 @@ Scene groups(int count, const std::string& name) {
 TEST_CASE("Equal groups compile once, and each moves by itself", "[fused][numerics]") {
     const Scratch scratch;
     const auto run = [&](const Scene& scene, const char* folder, int& made) {
-        testContext().setCache(scratch.path(folder));
+        const CacheIn kept(scratch.path(folder));
         SimulationOptions options;
         options.path = testPath();
         Simulation simulation(testContext(), compile(scene), options);
         for (int i = 0; i < 20; ++i)
             simulation.frame();
         made = testContext().cache().misses() + testContext().cache().hits();
-        testContext().setCache("");
         return simulation.snapshot(0).positions;
     };
     int one = 0, many = 0;

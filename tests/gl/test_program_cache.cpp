@@ -32,12 +32,6 @@ bool hasBinaries() {
     return active;
 }
 
-// Programs are kept in a folder while this lives.
-struct CacheIn {
-    explicit CacheIn(const std::string& folder) { testContext().setCache(folder); }
-    ~CacheIn() { testContext().setCache(""); }
-};
-
 ProgramOptions drawing(const std::string& body) {
     ProgramOptions options;
     options.vertex = "triangle.vert";

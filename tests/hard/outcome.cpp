@@ -4,8 +4,6 @@
 #include <iomanip>
 #include <sstream>
 
-#include "core/cache_folder.h"
-#include "gpu/program_cache.h"
 #include "hard/table.h"
 #include "simulate/fused.h"
 #include "support/catch.h"
@@ -107,7 +105,6 @@ bool onPingPong() {
 }
 
 Simulation hardSimulation(const Scene& scene, bool drawn) {
-    [[maybe_unused]] static const bool kept = (testContext().setCache(cacheFolder()), true);
     return Simulation(testContext(), compile(scene), {.drawn = drawn, .path = testPath()});
 }
 

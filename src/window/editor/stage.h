@@ -29,7 +29,7 @@ struct StageSettings {
 
 class EditorStage {
   public:
-    EditorStage(gpu::Context& context);
+    explicit EditorStage(gpu::Context& context);
 
     // Shows a valid molecule, played by `settings`; takes over what differs from before. Error: compile's;
     // the stage goes on as it was.
