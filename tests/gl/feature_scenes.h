@@ -36,6 +36,6 @@ std::vector<Collider> everyCollider();
 // multiplies roundings, and without births and schools, which the fused path alone has; or `fusedOnly` the
 // others. And scenes made here.
 std::vector<FeatureScene> shippedScenes(int mostMolecules, bool fusedOnly = false);
-std::vector<FeatureScene> featureScenes();
+std::vector<FeatureScene> featureScenes();  // with every solver where there are compute shaders
 
 }  // namespace shoal::test
