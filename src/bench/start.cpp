@@ -32,10 +32,9 @@ class ScratchFolder {
     std::filesystem::path path;
 };
 
-// With this folder for linked programs.
+// `folder`: of linked programs.
 double firstFrame(const Plan& plan, const BenchDevice& device, const std::string& folder) {
-    gpu::ProgramCache& cache = device.context->cache();
-    gpu::ProgramCache usual = std::exchange(cache, gpu::ProgramCache(device.context->info(), folder));
+    const gpu::OtherCache kept(*device.context, folder);
     const SimulationOptions options{.drawn = false, .path = Path::fused};
     Plan own = plan;
     glFinish();
@@ -43,9 +42,7 @@ double firstFrame(const Plan& plan, const BenchDevice& device, const std::string
     Simulation simulation(*device.context, std::move(own), options);
     simulation.frame();
     glFinish();
-    const double out = secondsSince(start);
-    cache = std::move(usual);
-    return out;
+    return secondsSince(start);
 }
 
 // A molecule of a slightly different shape, which no cache has seen: its rest lengths are the kernel's

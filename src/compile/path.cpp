@@ -192,7 +192,7 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
     }
     const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits); });
     if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
-    // What a CPU rasteriser would compile for too long as compute shaders, it would for longer as fragments.
+    // What a CPU rasteriser would compile for too long as compute shaders, it would for as long as fragments.
     const bool tooLong = limits.compute && limits.software &&
                          std::any_of(plan.groups.begin(), plan.groups.end(),
                                      [&](const GroupPlan& group) { return takesLong(plan, group); });

@@ -197,6 +197,8 @@ static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptio
     state->platform = rowOf(kind).create(options);
     enter(*state, true);
     state->info = readInfo(kind, *state->platform);
+    state->shaders = options.shaders;
+    state->cache = std::make_unique<ProgramCache>(state->info, options.cache);
     if (options.debug && state->info.atLeast(4, 3)) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // so that a debugger stops at the call that is wrong
@@ -219,8 +221,6 @@ Context::Context(const ContextOptions& options) {
         leaveCurrent();
         try {
             state_ = open(kind, options);
-            setShaders(options.shaders);
-            state_->cache = std::make_unique<ProgramCache>(info(), options.cache);
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());

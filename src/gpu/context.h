@@ -132,7 +132,7 @@ class Context {
     const ContextInfo& info() const { return state_->info; }
     Traffic& traffic() { return state_->traffic; }
     const std::string& shaders() const { return state_->shaders; }
-    ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h; may be given another
+    ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h
     // For programs that are made from now on.
     void setShaders(const std::string& folder) { state_->shaders = folder; }
     // Files on disk that programs of this context were made of.

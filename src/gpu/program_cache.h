@@ -55,4 +55,19 @@ class ProgramCache {
     std::vector<Warning> warnings_;
 };
 
+// Keeps a context's programs in another folder while this lives; empty: nowhere.
+class OtherCache {
+  public:
+    OtherCache(const Context& context, std::string folder)
+        : context_(&context),
+          usual_(std::exchange(context.cache(), ProgramCache(context.info(), std::move(folder)))) {}
+    ~OtherCache() { context_->cache() = std::move(usual_); }
+    OtherCache(const OtherCache&) = delete;
+    OtherCache& operator=(const OtherCache&) = delete;
+
+  private:
+    const Context* context_;
+    ProgramCache usual_;
+};
+
 }  // namespace shoal::gpu

@@ -165,7 +165,7 @@ std::string storeToBuffer(const std::vector<std::string>& values, const char* fu
     return out + "}\n";
 }
 
-// Declares so many of them, each by its number.
+// Declares so many colour targets.
 std::string declareTargets(int count) {
     std::string out = "\n";
     for (int t = 0; t < count; ++t)
@@ -173,7 +173,7 @@ std::string declareTargets(int count) {
     return out;
 }
 
-// What a vertex hands to the fragment that stores it; `way`: out of the one, into the other.
+// Declares the 4-vectors that a vertex hands to the fragment that stores them; `way`: "out" or "in".
 std::string declareHanded(const char* way, int count) {
     std::string out = "\n";
     for (int t = 0; t < count; ++t)

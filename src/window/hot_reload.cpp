@@ -3,7 +3,6 @@
 #include <set>
 
 #include "core/printable.h"
-#include "run/data_paths.h"
 #include "window/running_scene.h"
 
 namespace shoal::window {
@@ -22,7 +21,7 @@ bool HotReload::update(RunningScene& running, double now) {
     if (changed.empty()) return false;
     for (const std::string& file : changed) {
         if (std::find(changed_.begin(), changed_.end(), file) == changed_.end()) changed_.push_back(file);
-        stale_ |= file.rfind(shaderRoot(), 0) != 0;
+        stale_ |= file.rfind(running.simulation().context().shaders(), 0) != 0;
     }
     return reload(running, {});
 }

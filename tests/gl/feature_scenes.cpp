@@ -19,8 +19,8 @@ SolverKind solverOf(size_t number) {
     return explicitSolvers[number % 4];
 }
 
-// Without compute shaders one: the others' text in fragments is that of compute shaders and takes minutes to
-// compile.
+// Without compute shaders there is one: kernels in fragments have the text of compute shaders and take
+// minutes to compile with every solver.
 std::vector<SolverKind> solversHere() {
     if (!testContext().info().computeShaders) return {SolverKind::leapfrog};
     return {std::begin(explicitSolvers), std::end(explicitSolvers)};

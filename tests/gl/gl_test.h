@@ -3,7 +3,6 @@
 
 #include "compile/path.h"
 #include "gpu/context.h"
-#include "gpu/program_cache.h"
 
 // The one context of the process: SHOAL_TEST_CONTEXT=egl|osmesa|window, egl when it is not set. Current when
 // a test begins; a test that makes others current puts it back.
@@ -13,19 +12,6 @@ shoal::gpu::Context& testContext();
 inline bool keepsBits() {
     return testContext().info().software;
 }
-// Programs are kept in a folder while this lives.
-class CacheIn {
-  public:
-    explicit CacheIn(const std::string& folder) { setFolder(folder); }
-    ~CacheIn() { setFolder(""); }
-    CacheIn(const CacheIn&) = delete;
-    CacheIn& operator=(const CacheIn&) = delete;
-
-  private:
-    static void setFolder(const std::string& folder) {
-        testContext().cache() = shoal::gpu::ProgramCache(testContext().info(), folder);
-    }
-};
 // The path that simulations are tested on: SHOAL_TEST_PATH=fused|fragments|ping-pong, else what the context
 // can do.
 shoal::Path testPath();

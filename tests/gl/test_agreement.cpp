@@ -65,7 +65,7 @@ TEST_CASE("the fused path and passes agree on every scene", "[fused][agreement][
     CHECK(releases > 50);
 }
 
-// Below 4.3 the test above has every scene in fragments.
+// Below 4.3 the test above runs in fragments.
 TEST_CASE("compute shaders and fragments agree with every solver", "[fused][agreement][long]") {
     if (!test::canFuse()) return;
     std::vector<FeatureScene> scenes = test::shippedScenes(100);

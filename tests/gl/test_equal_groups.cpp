@@ -34,7 +34,7 @@ Scene groups(int count, const std::string& name) {
 TEST_CASE("Equal groups compile once, and each moves by itself", "[fused][numerics]") {
     const Scratch scratch;
     const auto run = [&](const Scene& scene, const char* folder, int& made) {
-        const CacheIn kept(scratch.path(folder));
+        const gpu::OtherCache kept(testContext(), scratch.path(folder));
         SimulationOptions options;
         options.path = testPath();
         Simulation simulation(testContext(), compile(scene), options);

@@ -84,7 +84,7 @@ struct Start {
 };
 
 Start start(const std::string& folder) {
-    const CacheIn kept(folder);
+    const OtherCache kept(testContext(), folder);
     ProgramCache& cache = testContext().cache();
     const Program program(testContext(), drawing(body));
     CHECK(draw(program) == std::vector<float>{1, 20, 300, 4000});
@@ -99,7 +99,7 @@ Start start(const std::string& folder) {
 }
 
 void make(const std::string& folder, const std::string& text) {
-    const CacheIn kept(folder);
+    const OtherCache kept(testContext(), folder);
     Program(testContext(), drawing(text));
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("what runs is the program from the file", "[program-cache]") {
     const fs::path path = filesIn(scratch / "one").front();
     const std::string other = shoal::readFile(filesIn(scratch / "two").front());
     shoal::writeFile(path, sealed(other, path.stem().string()));
-    const CacheIn kept(scratch.path("one"));
+    const OtherCache kept(testContext(), scratch.path("one"));
     const Program program(testContext(), drawing(body));
     CHECK(testContext().cache().hits() == 1);
     CHECK(draw(program) == std::vector<float>{50, 1000, 300, 4000});
@@ -199,7 +199,7 @@ TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
     if (!testContext().info().computeShaders) return;
     const Scratch scratch;
     for (int round = 0; round < 2; ++round) {
-        const CacheIn kept(scratch.path("cache"));
+        const OtherCache kept(testContext(), scratch.path("cache"));
         ProgramOptions options;
         options.compute = "test.comp";
         options.generated = {{"test.comp",
@@ -284,7 +284,7 @@ TEST_CASE("a folder that cannot be written is told once", "[program-cache]") {
     if (!hasBinaries()) return;
     const Scratch scratch;
     const std::string file = scratch.write("file", "in the way\n");
-    const CacheIn kept(file + "/cache");
+    const OtherCache kept(testContext(), file + "/cache");
     ProgramCache& cache = testContext().cache();
     for (const char* color : {"1.0", "2.0", "3.0"}) {
         const std::string text = std::string("void main() { color = vec4(") + color + "); }\n";
@@ -336,7 +336,7 @@ TEST_CASE("the oldest programs make room", "[program-cache]") {
 
 TEST_CASE("a program that does not compile leaves nothing in the cache", "[program-cache]") {
     const Scratch scratch;
-    const CacheIn kept(scratch.path("cache"));
+    const OtherCache kept(testContext(), scratch.path("cache"));
     CHECK_THAT(messageOf([&] { Program(testContext(), drawing("void main() { x; }\n")); }),
                Catch::Contains("does not compile"));
     CHECK_FALSE(fs::exists(scratch / "cache"));

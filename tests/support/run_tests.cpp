@@ -50,10 +50,6 @@ struct HangingTests : Listener {
         std::signal(SIGALRM, endHanging);
         ::alarm(longest);
     }
-    void testCaseEnded(const Catch::TestCaseStats& stats) override {
-        ::alarm(0);
-        Listener::testCaseEnded(stats);
-    }
 };
 
 CATCH_REGISTER_LISTENER(HangingTests)
