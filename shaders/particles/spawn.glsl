@@ -27,7 +27,6 @@ uniform usampler2D died;
 uniform usampler2D control;
 uniform int stateRows;  // of texels
 #define placeAt(i) int(wordAt(places, i))
-#define diedAt(i) int(wordAt(died, i))
 #define controlWord(w) int(wordOfControl(control, w))
 #else
 #ifdef LISTED
@@ -44,10 +43,14 @@ uniform int newbornCount;
 uniform int partFirst;
 uniform int partPlaces;
 #ifdef DEATH_RUNS
+// It reads a range of the deaths, and of each emitter's source a part of the state. Newborns that no death emits are
+// spawned by each, the same.
 layout(std430, binding = 5) readonly buffer Died { uint died[]; };
+uniform int firstDied;
+uniform int diedCount;
+uniform ivec4 sourcePlaces[DEATH_RUNS];  // first place, number of places, unused
 #endif
 #define placeAt(i) int(places[i - firstNewborn])
-#define diedAt(i) int(died[i])
 #define controlWord(w) int(control[w])
 #endif
 
@@ -166,8 +169,23 @@ void shape(Start start)
 #endif
 }
 
-// Returns the emitter of newborn i, and sets its seed, the molecule whose death emits it, if one does, and
-// its birth in s from the frame's start.
+#ifdef DEATH_RUNS
+// Returns the molecule, in the part of its group's state, whose death emits newborn j of a run; -1: another dispatch reads it.
+int sourceOf(int run, int j)
+{
+    int entry = deathRuns[run].z + j / deathRuns[run].y;
+#ifdef LAYERED
+    return int(wordAt(died, entry));
+#else
+    if (entry < firstDied || entry - firstDied >= diedCount) return -1;
+    int molecule = int(died[entry - firstDied]) - sourcePlaces[run].x;
+    return molecule >= 0 && molecule < sourcePlaces[run].y ? molecule : -1;
+#endif
+}
+#endif
+
+// Returns the emitter of newborn i, or -1 where another dispatch makes it, and sets its seed, the molecule whose death emits
+// it, if one does, and its birth in s from the frame's start.
 int findRun(int i, out Source source, out float at)
 {
     source = Source(0, 0.0);
@@ -179,7 +197,8 @@ int findRun(int i, out Source source, out float at)
     if (run >= 0) {
         ivec4 from = deathRuns[run];
         int j = i - controlWord(controlBase + controlFirsts + run);
-        source.molecule = diedAt(from.z + j / from.y);
+        source.molecule = sourceOf(run, j);
+        if (source.molecule < 0) return -1;
         float label;
         readDeath(from.x, source.molecule, label, source.since);
         source.since = min(source.since, frameDuration);
@@ -216,6 +235,7 @@ int newborn(int i)
     Source source;
     float at;
     int emitter = findRun(i, source, at);
+    if (emitter < 0) return -1;
     Start start;
     emitFrom(emitter, seed, at - 0.5 * frameDuration, source, start);
     shape(start);

@@ -226,26 +226,6 @@ bool isScene(const std::string& file) {
     return json.find("groups") != nullptr;
 }
 
-// Warns of groups from whose deaths others are born, and that are larger than 128 MiB. Each lies in one
-// storage block, whose size a context limits; llvmpipe and many GPUs have no more than this.
-void warnOfCapacity(const Plan& plan, std::vector<Warning>& out) {
-    constexpr size_t common = size_t{1} << 27;  // bytes
-    for (const GroupPlan& group : plan.groups) {
-        const BufferLayout layout = group.layout();
-        const size_t each = size_t(layout.stateElements()) * sizeof(glm::vec4);
-        if (!group.life || !group.life->feeds || layout.padded(size_t(group.count)) * each <= common)
-            continue;
-        out.push_back(
-            {group.life->cycle.location,
-             concat("a capacity of ", group.count, " for \"", group.name,
-                    "\", from whose deaths others are born, takes ", (size_t(group.count) * each) >> 20,
-                    " MiB in one storage block, and many "
-                    "contexts hold ",
-                    common >> 20, " MiB, a capacity of ", common / each,
-                    ": shoal info tells what yours holds")});
-    }
-}
-
 // A texture is read by the renderer only: here it is looked for, so that `check` finds it missing.
 void checkTexture(const Molecule& molecule) {
     if (!molecule.material.texture.empty()) readTexture(molecule);
@@ -304,7 +284,6 @@ Verdict checkScene(const std::string& file) {
     out.warnings = plan.warnings;
     for (const Warning& warning : checkStart(scene, plan))
         out.warnings.push_back(warning);
-    warnOfCapacity(plan, out.warnings);
     for (const Group& group : scene.groups) {
         if (isShipped(group.molecule)) continue;
         for (const Warning& warning : check(group.molecule))

@@ -8,16 +8,6 @@ using gpu::Buffer;
 using gpu::Program;
 using gpu::Traffic;
 
-// Emitters read those who died from one part of the state.
-static void checkSource(const gpu::ContextInfo& info, const GroupPlan& group, const GroupBuffers& state) {
-    if (!group.life->feeds || state.parts().size() == 1) return;
-    throw Error(group.life->cycle.location,
-                concat("a capacity of ", group.count, " for \"", group.name,
-                       "\", from whose deaths others are born, is more than this context holds in one "
-                       "storage block of ",
-                       info.maxStorageBlockBytes >> 20, " MiB: at most ", state.parts().front().count));
-}
-
 // Storage offsets are multiples of so many words on any device.
 constexpr size_t wordsApart = 64;
 
@@ -31,19 +21,12 @@ Births::Births(gpu::Context& context, const Plan& plan, const Tables& tables,
       listWords_(std::max(listWords / wordsApart, size_t(1)) * wordsApart) {
     for (const auto& living : groups_)
         if (living) make(*living, state[living->group], together[living->group]);
-    const auto block = size_t(context.info().maxStorageBlockBytes);
-    if (diedWords_ * sizeof(uint32_t) > block)
-        throw Error(
-            concat("groups from whose deaths others are born have more places than this context "
-                   "lists in one storage block: ",
-                   diedWords_, " instead of at most ", block / sizeof(uint32_t)));
     if (diedWords_ > 0)
         died_ = Buffer(context, Buffer::Use::storage, nullptr, diedWords_ * sizeof(uint32_t), "deaths");
 }
 
 void Births::make(const Living& living, const GroupBuffers& state, int together) {
     const GroupPlan& group = *living.plan;
-    checkSource(context_->info(), group, state);
     Buffers& buffers = buffers_[living.group];
     const size_t parts = state.parts().size();
     buffers.stepGroups =
@@ -62,14 +45,19 @@ void Births::make(const Living& living, const GroupBuffers& state, int together)
         const std::vector<uint8_t> none(bytes);
         buffers.died = Buffer(*context_, Buffer::Use::storage, none.data(), bytes, "died");
     }
+    buffers.ranges = rangesOf(size_t(group.count));
     if (!living.emits()) return;
-    const auto places = size_t(group.count);
     if (living.listed())
-        buffers.places =
-            Buffer(*context_, Buffer::Use::storage, nullptr, places * sizeof(uint32_t), "places");
-    for (size_t first = 0; first < places; first += listWords_)
-        buffers.ranges.push_back({first, std::min(listWords_, places - first)});
+        buffers.places = Buffer(*context_, Buffer::Use::storage, nullptr,
+                                size_t(group.count) * sizeof(uint32_t), "places");
     buffers.spawn = &makeSpawn(*context_, living, {});
+}
+
+std::vector<ListRange> Births::rangesOf(size_t words) const {
+    std::vector<ListRange> out;
+    for (size_t first = 0; first < words; first += listWords_)
+        out.push_back({first, std::min(listWords_, words - first)});
+    return out;
 }
 
 void Births::bindStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {
@@ -102,7 +90,7 @@ void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::Pas
     for (const auto& living : groups_)
         if (living && living->plan->life->feeds)
             lists_.listDeaths(buffers_[living->group].set, buffers_[living->group].died, died_,
-                              living->diedAt);
+                              living->diedAt, buffers_[living->group].ranges);
     for (const size_t g : order_)
         spawn(*groups_[g], frame, state);
     settleBirths();
@@ -113,20 +101,31 @@ void Births::countPlaces(const Living& living, int scheduled, bool allocates) {
                        allocates);
 }
 
-void Births::bindBirths(const Living& living, std::vector<GroupBuffers>& state) const {
+void Births::bindBirths(const Living& living) const {
     const Buffers& own = buffers_[living.group];
     const Program& program = *own.spawn;
     program.storage("FreeBits", 4, own.free);
-    if (!living.deathRuns.empty()) program.storage("Died", 5, died_);
     program.storage("Control", 6, lists_.control());
     tables_->bind(program, *plan_, 3);
+}
+
+void Births::bindSources(const Living& living, const ListRange& deaths, size_t index,
+                         const std::vector<GroupBuffers>& state) const {
+    const Program& program = *buffers_[living.group].spawn;
+    program.storage("Died", 5, died_, deaths.first * sizeof(uint32_t), deaths.count * sizeof(uint32_t));
+    program.set("firstDied", int(deaths.first));
+    program.set("diedCount", int(deaths.count));
+    std::vector<glm::ivec4> places;
     int unit = 4;
     for (const DeathRun& run : living.deathRuns) {
         const GroupBuffers& source = state[run.source];
-        const GroupBuffers::Part& sourcePart = source.parts().front();
-        program.texture(concat("sourceStates", run.emitter).c_str(), unit++, source.oldState(sourcePart));
-        program.texture(concat("sourceRecords", run.emitter).c_str(), unit++, sourcePart.record);
+        const bool read = index < source.parts().size();
+        const GroupBuffers::Part& part = source.parts()[read ? index : 0];
+        places.emplace_back(part.first, read ? part.count : 0, 0, 0);
+        program.texture(concat("sourceStates", run.emitter).c_str(), unit++, source.oldState(part));
+        program.texture(concat("sourceRecords", run.emitter).c_str(), unit++, part.record);
     }
+    program.set("sourcePlaces", std::span<const glm::ivec4>(places));
 }
 
 // In most cases one dispatch: of the list, the state or both there may be more than it can reach.
@@ -172,8 +171,17 @@ void Births::spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>
                           newborns.places.size() * sizeof(uint32_t));
     own.spawn->use();
     setNumbers(*own.spawn, living, newborns, frame);
-    bindBirths(living, state);
-    dispatchBirths(living, newborns.born, state[living.group]);
+    bindBirths(living);
+    if (living.deathRuns.empty()) return dispatchBirths(living, newborns.born, state[living.group]);
+    size_t parts = 1;
+    for (const DeathRun& run : living.deathRuns)
+        parts = std::max(parts, state[run.source].parts().size());
+    for (const ListRange& deaths : rangesOf(diedWords_)) {
+        for (size_t p = 0; p < parts; ++p) {
+            bindSources(living, deaths, p, state);
+            dispatchBirths(living, newborns.born, state[living.group]);
+        }
+    }
 }
 
 void Births::write(size_t group, const GroupState& state, double time) {

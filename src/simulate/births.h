@@ -18,8 +18,7 @@ class Births : public BirthPasses {
   public:
     // Borrows all but the strings and vectors. Of each group: its state, and as `together` the molecules that
     // a workgroup of its step takes. `listWords`: the words of a list that one dispatch may read. Error,
-    // located at the group: others are born from its deaths, and its state is in several parts; a storage
-    // block does not hold a bit for each of its places.
+    // located at the group: a storage block does not hold a bit for each of its places.
     Births(gpu::Context& context, const Plan& plan, const Tables& tables,
            const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords);
 
@@ -41,14 +40,19 @@ class Births : public BirthPasses {
     struct Buffers {
         gpu::Buffer free, died, places;  // bits, bits, list
         gpu::Buffer stepGroups;          // of each part
-        std::vector<ListRange> ranges;   // of the list of places
+        std::vector<ListRange> ranges;   // of a list of places
         PlaceSet set;
         const gpu::Program* spawn = nullptr;  // none: nothing is born
     };
     void make(const Living& living, const GroupBuffers& state, int together);
     void countPlaces(const Living& living, int scheduled, bool allocates);
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
-    void bindBirths(const Living& living, std::vector<GroupBuffers>& state) const;
+    std::vector<ListRange> rangesOf(size_t words) const;
+    void bindBirths(const Living& living) const;
+    // Of what others are born from, a dispatch reads one range of the deaths and the part with that index of
+    // each source's state.
+    void bindSources(const Living& living, const ListRange& deaths, size_t index,
+                     const std::vector<GroupBuffers>& state) const;
     void dispatchBirths(const Living& living, int born, const GroupBuffers& state) const;
 
     gpu::Context* context_;

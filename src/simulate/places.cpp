@@ -142,13 +142,18 @@ void PlaceLists::setReach(const Program& program, const PlaceSet& set) const {
     program.set("partCount", set.partCount);
 }
 
-// `at`: of the range's first word in the buffer.
-void PlaceLists::setList(const Program& program, const Buffer& list, size_t at, const ListRange& range,
-                         bool clears) const {
-    program.storage("List", 3, list, at * sizeof(uint32_t), range.count * sizeof(uint32_t));
-    program.set("listFirst", int(range.first));
-    program.set("listCount", int(range.count));
-    program.set("clears", int(clears));
+void PlaceLists::writeList(const Program& program, const PlaceSet& set, const Buffer& bits,
+                           const Buffer& list, size_t at, std::span<const ListRange> ranges) const {
+    program.storage("Bits", 0, bits);
+    for (const ListRange& range : ranges) {
+        program.storage("List", 3, list, (at + range.first) * sizeof(uint32_t),
+                        range.count * sizeof(uint32_t));
+        program.set("listFirst", int(range.first));
+        program.set("listCount", int(range.count));
+        program.set("clears", int(&range == &ranges.back()));
+        program.dispatch(groupsOf(set));
+        settleBirths();
+    }
 }
 
 void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
@@ -161,16 +166,14 @@ void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
     settleBirths();
 }
 
-void PlaceLists::listDeaths(const PlaceSet& set, const Buffer& bits, const Buffer& list, size_t at) {
+void PlaceLists::listDeaths(const PlaceSet& set, const Buffer& bits, const Buffer& list, size_t at,
+                            std::span<const ListRange> ranges) {
     sum(set, bits);
     setUp(scanDeaths_, set);
     scanDeaths_.dispatch(1);
     settleBirths();
     setUp(listDeaths_, set);
-    listDeaths_.storage("Bits", 0, bits);
-    setList(listDeaths_, list, at, {0, size_t(set.places)}, true);
-    listDeaths_.dispatch(groupsOf(set));
-    settleBirths();
+    writeList(listDeaths_, set, bits, list, at, ranges);
 }
 
 void PlaceLists::countPlaces(const PlaceSet& set, const Buffer& bits, int scheduled,
@@ -190,12 +193,7 @@ void PlaceLists::listPlaces(const PlaceSet& set, const Buffer& bits, const Buffe
                             std::span<const ListRange> ranges) {
     setUp(listPlaces_, set);
     setReach(listPlaces_, set);
-    listPlaces_.storage("Bits", 0, bits);
-    for (const ListRange& range : ranges) {
-        setList(listPlaces_, list, range.first, range, &range == &ranges.back());
-        listPlaces_.dispatch(groupsOf(set));
-        settleBirths();
-    }
+    writeList(listPlaces_, set, bits, list, 0, ranges);
 }
 
 void PlaceLists::readControl(size_t group, uint32_t* words) const {

@@ -90,14 +90,15 @@ class PlaceLists {
 
     static size_t bytesOf(size_t places);  // of their bits
 
-    // All set bits into `list` from word `at`, how many into control; the bits are cleared.
-    void listDeaths(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list, size_t at);
+    // All set bits into `list` from word `at`, how many into control; the bits are cleared. `ranges`: of
+    // what is listed, one after another, as long as a storage block holds.
+    void listDeaths(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list, size_t at,
+                    std::span<const ListRange> ranges);
     // How many of the births find a place among the set bits: `scheduled`, and for each of `deaths` (x: a
     // group's first word of control, y: births for each of its deaths). Only counts unless it `allocates`.
     void countPlaces(const PlaceSet& set, const gpu::Buffer& bits, int scheduled,
                      std::span<const glm::ivec4> deaths, bool allocates);
-    // After countPlaces: the first of them, as many as are born; their bits are cleared. `ranges`: of the
-    // list, one after another, as long as a storage block holds.
+    // After countPlaces: the first of them, as many as are born; their bits are cleared.
     void listPlaces(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list,
                     std::span<const ListRange> ranges);
 
@@ -109,8 +110,8 @@ class PlaceLists {
     void sum(const PlaceSet& set, const gpu::Buffer& bits);
     void setUp(const gpu::Program& program, const PlaceSet& set) const;
     void setReach(const gpu::Program& program, const PlaceSet& set) const;
-    void setList(const gpu::Program& program, const gpu::Buffer& list, size_t at, const ListRange& range,
-                 bool clears) const;
+    void writeList(const gpu::Program& program, const PlaceSet& set, const gpu::Buffer& bits,
+                   const gpu::Buffer& list, size_t at, std::span<const ListRange> ranges) const;
 
     gpu::Program count_, scanDeaths_, scanPlaces_, listDeaths_, listPlaces_;
     gpu::Buffer control_, sums_;

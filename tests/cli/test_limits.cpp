@@ -40,26 +40,6 @@ TEST_CASE("Names of 245 characters and more run, headless and with pictures", "[
     CHECK(run.code == 0);
 }
 
-TEST_CASE(
-    "A capacity from whose deaths others are born, and that contexts may not hold, is told by check, and "
-    "refused with place and limit",
-    "[cli]") {
-    const Scratch scratch;
-    const std::string scene =
-        scratch.write("a.scene.json",
-                      sceneOf(R"({"name": "dust", "particle": {}, "life": {"span": 0.5, "capacity": 16777216},
-            "emitters": [{"from": "point", "rate": 1000}]}, {"name": "ash", "particle": {},
-            "life": {"span": 0.5, "capacity": 10}, "emitters": [{"from": "death", "of": "dust"}]})"));
-    const Outcome check = runShoal({"check", scene});
-    CHECK(check.code == 0);
-    CHECK_THAT(check.out, Catch::Contains("a.scene.json:1:") && Catch::Contains("capacity of 16777216") &&
-                              Catch::Contains("MiB"));
-    const Outcome run = runShoal({"run", scene, "--headless", "--frames", "1", "--json"});
-    if (run.code == 0) return;  // this context holds it
-    CHECK_THAT(run.err, Catch::Contains("a.scene.json:1:") && Catch::Contains("capacity of 16777216") &&
-                            Catch::Contains("at most"));
-}
-
 TEST_CASE("check tells of molecules with contact that start in one place", "[cli]") {
     const Scratch scratch;
     scratch.write("blade.json", smallMolecule);
