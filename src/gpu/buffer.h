@@ -99,8 +99,7 @@ class BufferTexture {
     size_t texels_ = 0;
 };
 
-// Borrows its buffers, which must outlive it. One without attributes is what a draw needs that makes its
-// vertices from gl_VertexID.
+// Borrows its buffers, which must outlive it. What has no attributes needs none (drawVertices).
 class VertexArray {
   public:
     VertexArray() = default;

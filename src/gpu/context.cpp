@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/printable.h"
+#include "gpu/framebuffer.h"
 #include "gpu/gl.h"
 #include "gpu/platform.h"
 #include "gpu/program_cache.h"
@@ -31,7 +32,9 @@ static void leaveCurrent() {
 
 Context::State::State() = default;
 Context::State::~State() {
-    if (currentState == this) leaveCurrent();
+    if (currentState != this) return;
+    if (noAttributes != 0) glDeleteVertexArrays(1, &noAttributes);  // a given context lives on
+    leaveCurrent();
 }
 
 static void initGlew(Loader loader) {
@@ -197,6 +200,7 @@ static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptio
     state->platform = rowOf(kind).create(options);
     enter(*state, true);
     state->info = readInfo(kind, *state->platform);
+    glGenVertexArrays(1, &state->noAttributes);
     state->shaders = options.shaders;
     state->cache = std::make_unique<ProgramCache>(state->info, options.cache);
     if (options.debug && state->info.atLeast(4, 3)) {
@@ -230,6 +234,11 @@ Context::Context(const ContextOptions& options) {
     restore(before);
     if (options.device) throw Error("EGL's device cannot be used:" + tried);
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
+}
+
+void drawVertices(int count, GLenum primitive) {
+    glBindVertexArray(currentState->noAttributes);
+    glDrawArrays(primitive, 0, count);
 }
 
 void Context::makeCurrent() {

@@ -153,6 +153,7 @@ class Context {
         std::string shaders;
         std::unique_ptr<ProgramCache> cache;
         std::set<std::string> shaderFiles;
+        unsigned noAttributes = 0;  // a vertex array
         State();
         ~State();
     };

@@ -120,7 +120,7 @@ void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) 
     if (network_) {
         bind(program);
         program.set("keepOrder", int(keepOrder));
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        gpu::drawVertices(3);
         network_->flip();
         return;
     }
@@ -156,8 +156,8 @@ std::vector<KeyIndex> DrawOrder::download() const {
 DepthSlabs::DepthSlabs(gpu::Context& context, int count, const DrawOrder& order)
     : bounds_(context, gpu::Format::rg32ui, count, 1, "depth slabs"),
       target_(context, {&bounds_}, nullptr, "depth slabs"),
-      program_(context, {"passes/fullscreen.vert", "render/slabs.frag", order.defines(), {}, "depth slabs"}),
-      noAttributes_(context, "depth slabs") {}
+      program_(context, {"passes/fullscreen.vert", "render/slabs.frag", order.defines(), {}, "depth slabs"}) {
+}
 
 void DepthSlabs::update(const DrawOrder& order) {
     for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST})
@@ -167,8 +167,7 @@ void DepthSlabs::update(const DrawOrder& order) {
     order.bind(program_);
     program_.set("moleculeCount", order.count());
     program_.set("slabCount", count());
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void DepthSlabs::bind(const gpu::Program& program) const {

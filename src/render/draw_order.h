@@ -96,7 +96,6 @@ class DepthSlabs {
     gpu::Texture bounds_;  // texel s: first key of slab s, first one past it
     gpu::Framebuffer target_;
     gpu::Program program_;
-    gpu::VertexArray noAttributes_;
 };
 
 // The contents of one instance of a draw call.

@@ -25,7 +25,6 @@ AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
     find_ = gpu::Program(context, {"render/screen.vert", "render/occlusion.frag", {}, {}, "occlusion"});
     blur_ = gpu::Program(
         context, {"render/screen.vert", "render/occlusion.frag", {"BLUR"}, {}, "occlusion, smoothed"});
-    empty_ = gpu::VertexArray(context, "no corners");
 }
 
 void AmbientOcclusion::resize(int width, int height) {
@@ -39,18 +38,17 @@ void AmbientOcclusion::resize(int width, int height) {
 
 void AmbientOcclusion::draw(const Eye& eye, const gpu::Texture& sceneDepth) {
     glDisable(GL_DEPTH_TEST);
-    empty_.bind();
     roughTarget_.bind();
     find_.use();
     find_.texture("sceneDepth", unit::sceneDepth, sceneDepth);
     find_.set("nearest", eye.nearest);
     find_.set("tangents", eye.tangents);
     find_.set("reach", glm::vec2(float(reachByHeight), farthest_));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     smoothTarget_.bind();
     blur_.use();
     blur_.texture("occlusion", unit::occlusion, rough_);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void AmbientOcclusion::apply(const gpu::Program& program, const Eye& eye,

@@ -30,7 +30,6 @@ class AmbientOcclusion {
     float ambient_;   // luminance of the sky's light on something grey
     float farthest_;  // m: no sample lies further off
     gpu::Program find_, blur_;
-    gpu::VertexArray empty_;
     gpu::Texture rough_, smooth_;
     gpu::Framebuffer roughTarget_, smoothTarget_;
 };

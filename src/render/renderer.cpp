@@ -69,7 +69,6 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
                       pictureDefines(lighting_, beams_, occlusion_),
                       {},
                       "picture"}),
-      empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
     if (scene.sky.clouds > 0) drawClouds(scene);
@@ -168,10 +167,9 @@ void Renderer::drawClouds(const Scene& scene) {
     program.use();
     program.set("share", float(scene.sky.clouds));
     program.set("sunDirection", glm::vec3(towardsSun(scene.light)));
-    empty_.bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 // Last, at the far plane: only where nothing else was drawn.
@@ -182,9 +180,8 @@ void Renderer::drawSky(const Eye& eye) {
     sky_.set("viewToScene", eye.viewToScene);
     sky_.set("tangents", eye.tangents);
     if (clouds_) sky_.texture("clouds", unit::clouds, clouds_);
-    empty_.bind();
     glDepthMask(GL_FALSE);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
 }
@@ -211,8 +208,7 @@ void Renderer::drawPicture(const Eye& eye, double exposure) {
     if (beams_) tone_.texture("beams", unit::image, beams_.light());
     if (occlusion_) occlusion_.apply(tone_, eye, sceneDepth_);
     tone_.set("exposure", float(exposure));
-    empty_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 Image Renderer::capture() const {

@@ -103,7 +103,6 @@ class Renderer {
     AmbientOcclusion occlusion_;
     gpu::Program sky_, tone_;
     gpu::Texture clouds_;  // none: a clear sky
-    gpu::VertexArray empty_;
     gpu::PassTimers timers_;
     gpu::PrimitiveCounter primitives_;
     gpu::Framebuffer samples_;  // light

@@ -116,7 +116,6 @@ WaterBeams::WaterBeams(gpu::Context& context, const WaterLight* water)
     : context_(&context), water_(water != nullptr && water->water().rays > 0 ? water : nullptr) {
     if (!water_) return;
     program_ = gpu::Program(context, {"render/screen.vert", "water/rays.frag", {}, {}, "beams"});
-    empty_ = gpu::VertexArray(context, "no corners");
 }
 
 void WaterBeams::resize(int width, int height) {
@@ -138,8 +137,7 @@ void WaterBeams::draw(const Eye& eye, const Lighting& lighting, const gpu::Textu
     program_.set("strength", float(water_->water().rays));
     const glm::dvec3 k = glm::max(water_->water().extinction, glm::dvec3(leastExtinction));
     program_.set("reach", float(std::min(longest, 1.5 / std::min({k.x, k.y, k.z}))));
-    empty_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 }  // namespace shoal

@@ -61,7 +61,6 @@ class WaterBeams {
     gpu::Context* context_;
     const WaterLight* water_;
     gpu::Program program_;
-    gpu::VertexArray empty_;
     gpu::Texture light_;
     gpu::Framebuffer target_;
 };

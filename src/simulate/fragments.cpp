@@ -41,7 +41,7 @@ class Fragments::Touched : public ContactState {
 
 Fragments::Fragments(gpu::Context& context, const Plan& plan, const Tables& tables,
                      const SimulationOptions& options)
-    : plan_(&plan), noAttributes_(context, "fused step") {
+    : plan_(&plan) {
     const KernelSource source{&context, &plan, &tables};
     const int targets = context.info().maxColorAttachments;
     if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
@@ -79,11 +79,10 @@ void Fragments::draw(const Program& program, size_t group, std::span<const Layer
     program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
     if (layers.hasConstants()) program.texture("constants", kernel_unit::constants, layers.constants());
     programs_[group].kernel->bindTables(program);
-    noAttributes_.bind();
     for (const LayerDraw& draw : draws) {
         if (program.uses("firstStored")) program.set("firstStored", draw.first);
         draw.target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
-        glDrawArrays(GL_TRIANGLES, 0, vertices);
+        gpu::drawVertices(vertices);
     }
 }
 

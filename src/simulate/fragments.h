@@ -75,8 +75,7 @@ class Fragments : public ExecutionPath {
     int mostVertices_ = 0;  // of a lane, where loops end early (compile/lanes.h: piecesOf)
     int pieces_ = 1;        // dispatches of the last frame
     gpu::Programs made_;
-    std::vector<Programs> programs_;  // per group
-    gpu::VertexArray noAttributes_;
+    std::vector<Programs> programs_;         // per group
     std::unique_ptr<RunawayQuery> query_;    // null: not watched
     std::unique_ptr<TextureSchool> school_;  // null: there is none
     double steeringEnd_ = 0;                 // s, of the frame

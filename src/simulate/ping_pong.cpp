@@ -50,7 +50,7 @@ std::string setOnceFor(const GroupPlan& group) {
 class VertexTexels : public ContactState {
   public:
     VertexTexels(gpu::Context& context, const Plan& plan, const Tables& tables, TextureState& state)
-        : plan_(&plan), tables_(&tables), state_(&state), noAttributes_(context, "contact") {
+        : plan_(&plan), tables_(&tables), state_(&state) {
         apply_.resize(plan.groups.size());
         for (const ContactGroup& contact : plan.contact.groups) {
             const GroupPlan& group = plan.groups[contact.group];
@@ -83,8 +83,7 @@ class VertexTexels : public ContactState {
         const gpu::Framebuffer& target =
             state_->target({&state_->position.write(group), &state_->velocity.write(group)});
         target.bind(0, at.firstRow, target.width(), at.rows);
-        noAttributes_.bind();
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        gpu::drawVertices(3);
         state_->position.flip(group);
         state_->velocity.flip(group);
     }
@@ -94,18 +93,13 @@ class VertexTexels : public ContactState {
     const Tables* tables_;
     TextureState* state_;
     std::vector<Program> apply_;  // per group
-    gpu::VertexArray noAttributes_;
 };
 
 }  // namespace
 
 PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables,
                    const SimulationOptions& options)
-    : state(context, plan),
-      plan_(&plan),
-      tables_(&tables),
-      drawn_(options.drawn),
-      noAttributes_(context, "pass") {
+    : state(context, plan), plan_(&plan), tables_(&tables), drawn_(options.drawn) {
     if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
     programs_.resize(plan.groups.size());
     for (const PassPlan& pass : plan.passes) {
@@ -248,8 +242,7 @@ void PingPong::setParameters(const Program& program, const GroupPlan& group, con
 
 void PingPong::draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets) {
     state.target(targets).bind(0, firstRow, std::min(stateWidth, group.count), rows);
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void PingPong::drawState(const GroupPlan& group, const Targets& targets) {

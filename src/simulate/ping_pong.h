@@ -88,8 +88,7 @@ class PingPong : public ExecutionPath {
     bool drawn_;
     gpu::Programs made_;
     std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
-    gpu::VertexArray noAttributes_;
-    std::unique_ptr<RunawayQuery> query_;  // null: not watched
+    std::unique_ptr<RunawayQuery> query_;                       // null: not watched
     std::unique_ptr<ContactState> contactState_;
     std::unique_ptr<TextureContact> contact_;  // null: there is none
 };

@@ -43,8 +43,7 @@ TextureBirths::TextureBirths(gpu::Context& context, const Plan& plan, const Tabl
       own_(plan.groups.size()),
       places_(context, plan),
       died_(listOf(context, diedWords_, "deaths")),
-      newDied_(context, {&died_}, nullptr, "deaths"),
-      noAttributes_(context, "births") {
+      newDied_(context, {&died_}, nullptr, "deaths") {
     for (const auto& living : groups_)
         if (living && living->emits()) make(*living, targets);
 }
@@ -131,11 +130,10 @@ void TextureBirths::spawn(Living& living, const Frame& frame, std::vector<GroupL
     setNumbers(program, living, newborns, frame);
     program.set("stateRows", layers.state().height());
     bindBirths(program, living, state);
-    noAttributes_.bind();
     for (const LayerDraw& draw : layers.newborns()) {
         program.set("firstStored", draw.first);
         draw.target.bind();
-        glDrawArrays(GL_POINTS, 0, most);
+        gpu::drawVertices(most, GL_POINTS);
     }
 }
 

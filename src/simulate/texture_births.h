@@ -55,7 +55,6 @@ class TextureBirths : public BirthPasses {
     TexturePlaces places_;
     gpu::Texture died_;  // lists of deaths
     gpu::Framebuffer newDied_;
-    gpu::VertexArray noAttributes_;
 };
 
 }  // namespace shoal

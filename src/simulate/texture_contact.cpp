@@ -24,8 +24,7 @@ TextureContact::TextureContact(gpu::Context& context, const Plan& plan, const Ta
       rowBits_(plan.contact.rowBits()),
       sort_(context, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
             NetworkSort::Ties::byIndex),
-      targets_(context),
-      noAttributes_(context, "contact") {
+      targets_(context) {
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_.emplace(context, NetworkSort::Kind::bitonic, size_t(contact_->spheres), 2 << rowBits_,
                            NetworkSort::Ties::byIndex);
@@ -193,8 +192,7 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
 void TextureContact::draw(const Into& into, int firstRow, int rows) {
     const gpu::Framebuffer& target = targets_.into(into);
     target.bind(0, firstRow, target.width(), rows);
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void TextureContact::drawAll(const Into& into) {
@@ -269,7 +267,7 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
     keys_.set("cell", float(contact_->cell));
     keys_.set("staggered", int(staggered));
     sort.drawInto(sort.target());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     sort.flip();
     sort.sort();
 }

@@ -125,7 +125,6 @@ class TextureContact : public ContactPasses<ContactState> {
     std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
     gpu::Texture effectiveCounts_, contactSums_, motionsNow_, bodies_, gains_;
     gpu::Framebuffers targets_;
-    gpu::VertexArray noAttributes_;
 };
 
 }  // namespace shoal

@@ -28,8 +28,7 @@ int rowsOf(int places) {
 
 }  // namespace
 
-TexturePlaces::TexturePlaces(gpu::Context& context, const Plan& plan)
-    : context_(&context), noAttributes_(context, "places") {
+TexturePlaces::TexturePlaces(gpu::Context& context, const Plan& plan) : context_(&context) {
     int rows = rowsOf(mostPlaces(plan));
     bits_ = Texture(context, Format::rg32ui, siblings, rows, "bits of places");
     newBits_ = Framebuffer(context, {&bits_}, nullptr, "bits of places");
@@ -84,7 +83,6 @@ void TexturePlaces::makePrograms(const Plan& plan) {
 void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int count) {
     group_ = group;
     count_ = count;
-    noAttributes_.bind();
     const Program& bits = *findBits_[group];
     bits.use();
     bits.texture("states", 0, state.state());
@@ -94,7 +92,7 @@ void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int c
     bits.set("placeCount", state.count());
     int rows = rowsOf(count);
     newBits_.bind(0, 0, siblings, rows);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     const Texture* below = &bits_;
     for (const Level& level : levels_) {
         const Program& sums = below == &bits_ ? sumWords_ : sumLevel_;
@@ -103,7 +101,7 @@ void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int c
         sums.set("belowRows", rows);
         if (below != &bits_) rows = partsOf(rows, siblings);
         level.framebuffer.bind(0, 0, siblings, rows);
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        gpu::drawVertices(3);
         below = &level.sums;
     }
 }
@@ -126,8 +124,7 @@ void TexturePlaces::put(const Program& program, int scheduled, std::span<const g
     program.set("deathRunCount", int(deaths.size()));
     program.set("deathRuns", deaths);
     newControl_[now_].bind();
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     now_ = 1 - now_;
 }
 
@@ -136,8 +133,7 @@ void TexturePlaces::draw(const Program& list, const Framebuffer& target, int fir
     bindTree(list);
     list.set("firstRow", firstRow);
     target.bind(0, firstRow, target.width(), rows);
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void TexturePlaces::readControl(size_t group, uint32_t* words) const {

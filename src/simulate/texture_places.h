@@ -69,7 +69,6 @@ class TexturePlaces {
     gpu::Programs made_;
     std::vector<const gpu::Program*> findBits_;  // of each group; null: without life
     gpu::Program sumWords_, sumLevel_, deaths_, cuts_, births_, listDeaths_, listPlaces_;
-    gpu::VertexArray noAttributes_;
     size_t group_ = 0;  // of the sums
     int count_ = 0;
 };

@@ -28,8 +28,7 @@ TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tabl
     : SchoolPasses(context, plan, tables, rowBitsOf(plan.school)),
       rowBits_(rowBitsOf(plan.school)),
       sort_((checkCount(plan.school, mostOf(context.info())), context), NetworkSort::Kind::bitonic,
-            size_t(plan.school.entries), 2 << rowBits_, NetworkSort::Ties::byIndex),
-      noAttributes_(context, "school") {
+            size_t(plan.school.entries), 2 << rowBits_, NetworkSort::Ties::byIndex) {
     const auto texture = [&](Format format, int numbers, const char* label, int layers = 0) {
         return Texture(context, format, 1 << rowBits_, rowsOf(numbers), label, layers);
     };
@@ -53,8 +52,7 @@ TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tabl
 
 void TextureSchool::draw(const Framebuffer& target, int firstRow, int rows) const {
     target.bind(0, firstRow, target.width(), rows);
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
 }
 
 void TextureSchool::findBodies(const std::vector<GroupLayers>& state) {
@@ -75,7 +73,7 @@ void TextureSchool::order() {
     const Program& keys = useKeys();
     keys.texture("bodies", 0, bodies_);
     sort_.drawInto(sort_.target());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     sort_.flip();
     sort_.sort();
     starts_.use();

@@ -34,7 +34,6 @@ class TextureSchool : public SchoolPasses {
     gpu::Program starts_, steered_;
     gpu::Texture bodies_, startsOf_, places_, velocities_, slotSteering_;
     gpu::Framebuffer newBodies_, newStarts_, newOrder_, newSlotSteering_;
-    gpu::VertexArray noAttributes_;
 };
 
 }  // namespace shoal

@@ -78,8 +78,7 @@ NetworkSort::NetworkSort(gpu::Context& context, Kind kind, size_t capacity, int 
     : kind_(kind),
       capacity_(checkedCapacity(context.info(), kind, capacity)),
       count_(capacity_),
-      rowLength_(chosenRowLength(context.info(), kind, capacity_, rowLength)),
-      noAttributes_(context, "sort") {
+      rowLength_(chosenRowLength(context.info(), kind, capacity_, rowLength)) {
     const gpu::Format format = kind == Kind::bitonic ? gpu::Format::rgba32ui : gpu::Format::rg32ui;
     for (int i = 0; i < 2; ++i) {
         sides_[i] = gpu::Texture(context, format, rowLength_ / pairsInTexel(kind), rows(), "sorted pairs");
@@ -118,7 +117,6 @@ std::vector<KeyIndex> NetworkSort::download() const {
 void NetworkSort::drawInto(const gpu::Framebuffer& target) const {
     gpu::drawPlainly();
     target.bind(0, 0, target.width(), rows());
-    noAttributes_.bind();
 }
 
 void NetworkSort::begin() const {
@@ -133,7 +131,7 @@ void NetworkSort::run(const OddEvenPass& pass) {
     program_.set("rowBits", std::countr_zero(unsigned(rowLength_)));
     program_.set("run", pass.run);
     program_.set("reach", pass.distance);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     flip();
 }
 
@@ -145,7 +143,7 @@ void NetworkSort::run(const BitonicPass& pass) {
     program_.set("crossed", int(pass.crossed));
     program_.set("sortedBefore", int(pass.first));
     program_.set("sortedAfter", int(pass.last));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gpu::drawVertices(3);
     flip();
 }
 

@@ -111,7 +111,6 @@ class NetworkSort {
     gpu::Framebuffer targets_[2];
     int side_ = 0;
     gpu::Program program_;
-    gpu::VertexArray noAttributes_;
     std::vector<OddEvenPass> spread_;
     int frames_ = 1, frame_ = 0;
 };

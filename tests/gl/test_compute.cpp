@@ -146,11 +146,9 @@ TEST_CASE("a fragment shader reads a whole buffer as a texture", "[compute]") {
     Texture target(testContext(), Format::rgba32f, 1, 1, "target");
     const Framebuffer framebuffer(testContext(), {&target}, nullptr, "target");
     framebuffer.bind();
-    const VertexArray none(testContext());
-    none.bind();
     program.use();
     program.texture("values", 5, texture);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    drawVertices(3);
     std::vector<float> color(4);
     target.download(Kind::control, 0, 0, 1, 1, color.data(), 16);
     CHECK(color == std::vector<float>{1, 2, 3, 4});

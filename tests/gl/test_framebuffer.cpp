@@ -28,10 +28,8 @@ static ProgramOptions shaders(const std::string& fragment) {
 }
 
 static void drawTriangle(const Program& program) {
-    const VertexArray none(testContext());
-    none.bind();
     program.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    drawVertices(3);
 }
 
 TEST_CASE("draw buffers are the colours in their order", "[framebuffer]") {

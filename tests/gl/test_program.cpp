@@ -28,10 +28,8 @@ static ProgramOptions withFragment(const std::string& fragment) {
 static std::vector<float> draw(const Program& program, const std::vector<ColorTarget>& targets) {
     const Framebuffer framebuffer(testContext(), targets, nullptr, "target");
     framebuffer.bind();
-    const VertexArray none(testContext());
-    none.bind();
     program.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    drawVertices(3);
     std::vector<float> texels(16);
     targets.front().texture->download(Traffic::Kind::control, 0, 0, 2, 2, texels.data(), 64);
     texels.resize(4);

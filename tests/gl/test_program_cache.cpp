@@ -62,8 +62,6 @@ std::vector<float> draw(const Program& program) {
     const Buffer buffer(testContext(), Buffer::Use::uniform, types, sizeof types, "types");
     const Framebuffer framebuffer(testContext(), {&target}, nullptr, "target");
     framebuffer.bind();
-    const VertexArray none(testContext());
-    none.bind();
     program.use();
     program.set("scale", 2.0f);
     program.set("unused", 1.0f);
@@ -71,7 +69,7 @@ std::vector<float> draw(const Program& program) {
     program.set("list", list);
     program.texture("image", 3, image);
     program.uniformBlock("Types", 2, buffer);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    drawVertices(3);
     std::vector<float> color(4);
     target.download(Traffic::Kind::control, 0, 0, 1, 1, color.data(), 16);
     return color;
