@@ -12,9 +12,14 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include <algorithm>
 #include <charconv>
+#include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options.h"
 #include "core/error.h"
@@ -23,19 +28,28 @@ namespace shoal::app {
 
 // Whether all of the text is a T: no sign that an unsigned number would swallow, nothing behind it.
 template <typename T>
-bool isAll(const std::string& text) {
-    T value;
+bool isAll(const std::string& text, T& value) {
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     return code == std::errc() && end == text.data() + text.size();
 }
 
-inline CLI::Validator kindOf(bool (*test)(const std::string&), const std::string& what) {
+// A value is a T that meets the test, else "expected `what`, found …".
+template <typename T>
+CLI::Validator isA(const std::string& what, const std::function<bool(T)>& test) {
     return CLI::Validator(
-        [test, what](const std::string& text) {
-            return test(text) ? std::string() : concat("expected ", what, ", found \"", text, "\"");
+        [what, test](const std::string& text) {
+            T value{};
+            if (isAll(text, value) && test(value)) return std::string();
+            return concat("expected ", what, ", found \"", text, "\"");
         },
         "");
 }
+
+// A value is one of the words.
+CLI::Validator oneOf(const std::vector<std::string>& words);
+
+// The name of a file has one of the endings; where folders will do, so does what looks like none.
+CLI::Validator endsIn(const std::vector<std::string>& endings, bool orFolder = false);
 
 // `option` means something only beside `other`.
 inline void needs(CLI::App& command, const char* option, const char* other) {
@@ -48,13 +62,6 @@ inline void excludes(CLI::App& command, const char* option, std::initializer_lis
         command.get_option(option)->excludes(command.get_option(other));
 }
 
-// Options whose words are read when all are there.
-struct Texts {
-    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice,
-                exportCells = "surface";
-    std::vector<std::string> solvers, samplings;
-};
-
 // Titles in a command's help, of what is declared from here on.
 inline const char* const ofScene = "In place of what the scene says";
 inline const char* const execution = "How it runs";
@@ -63,48 +70,87 @@ inline void section(CLI::App& command, const char* title) {
     command.option_defaults()->group(title);
 }
 
-// Options whose value is a whole number, any number (`kind`, such as "a time in seconds"), or a file.
+// Options whose value is a whole number from `least` to `most`, a number (`kind` says which, such as "a time
+// in seconds"), a file, one of the words in the order of an enumeration T, or what read(text) takes, whose
+// Error is told of the option.
 template <typename T>
-CLI::Option* addWhole(CLI::App& command, const char* name, T& value, const std::string& what) {
-    return command.add_option(name, value, what)->check(kindOf(isAll<int>, "a whole number"));
+CLI::Option* addWhole(CLI::App& command, const char* name, T& value, const std::string& what,
+                      int least = std::numeric_limits<int>::min(),
+                      int most = std::numeric_limits<int>::max()) {
+    const std::string range = most < std::numeric_limits<int>::max() ? concat(" from ", least, " to ", most)
+                              : least > std::numeric_limits<int>::min() ? concat(", ", least, " or more")
+                                                                        : "";
+    return command.add_option(name, value, what)->check(isA<int>("a whole number" + range, [=](int n) {
+        return n >= least && n <= most;
+    }));
 }
 template <typename T>
-CLI::Option* addNumber(CLI::App& command, const char* name, T& value, const std::string& what,
-                       const char* kind) {
-    return command.add_option(name, value, what)->check(kindOf(isAll<double>, kind));
+CLI::Option* addNumber(
+    CLI::App& command, const char* name, T& value, const std::string& what, const std::string& kind,
+    bool (*test)(double) = [](double) { return true; }) {
+    return command.add_option(name, value, what)->check(isA<double>(kind, test));
 }
 template <typename T>
 CLI::Option* addFile(CLI::App& command, const char* name, T& value, const std::string& what) {
-    return command.add_option(name, value, what)->type_name("FILE");
+    return command.add_option(name, value, what)
+        ->check([](const std::string& file) { return file.empty() ? "expected the name of a file" : ""; })
+        ->type_name("FILE");
+}
+template <typename Read>
+auto namingErrors(const char* name, Read read) {
+    return [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(name, error.message());
+        }
+    };
+}
+template <typename Read>
+CLI::Option* addRead(CLI::App& command, const char* name, const std::string& what, Read read) {
+    return command.add_option_function<std::string>(name, namingErrors(name, read), what);
+}
+// The same for an option that may be repeated.
+template <typename Read>
+CLI::Option* addReads(CLI::App& command, const char* name, const std::string& what, Read read) {
+    const auto each = [one = namingErrors(name, read)](const std::vector<std::string>& texts) {
+        std::for_each(texts.begin(), texts.end(), one);
+    };
+    return command.add_option_function<std::vector<std::string>>(name, each, what);
+}
+template <typename T>
+CLI::Option* addWord(CLI::App& command, const char* name, T& value, const std::string& what,
+                     const std::vector<std::string>& words) {
+    const auto read = [&value, words](const std::string& word) {
+        value = T(std::find(words.begin(), words.end(), word) - words.begin());
+    };
+    return addRead(command, name, what, read)
+        ->check(oneOf(words))
+        ->type_name(joined(words, "|"))
+        ->default_str(words[size_t(value)]);
 }
 
 void addScene(CLI::App& command, Options& options);
-void addOverrides(CLI::App& command, Options& options, Texts& texts);
-void addPath(CLI::App& command, Options& options, Texts& texts);
-void addContext(CLI::App& command, Options& options, Texts& texts);
+void addOverrides(CLI::App& command, Options& options);
+void addError(CLI::App& command, Options& options, const std::string& what);
+void addPath(CLI::App& command, Options& options);
+void addContext(CLI::App& command, Options& options);
 void addCountAndSeed(CLI::App& command, Options& options);
-void addMeasure(CLI::App& command, Options& options, Texts& texts);
-void addExport(CLI::App& command, Options& options, Texts& texts);
-void finishExport(Options& options);
-void addBench(CLI::App& command, Options& options, Texts& texts);
+CLI::Option* addSize(CLI::App& command, Options& options, const std::string& what);
+void addMeasure(CLI::App& command, Options& options);
+void addExport(CLI::App& command, Options& options);
+void addBench(CLI::App& command, Options& options);
+void addField(CLI::App& command, Options& options);
 
-// Error: unknown; `option` is what it was given to. Nothing: auto.
-std::optional<SolverKind> solverNamed(const char* option, const std::string& word);
-
-// Reads and checks the options of `measure` and `bench`. Error: unknown words, or out of range.
-void finishMeasure(const Texts& texts, Options& options);
-
-// `slice` and `size`: where their texts go.
-void addField(CLI::App& command, Options& options, std::string& slice, std::string& size);
-// Reads the slice. Error: out of range, or what excludes itself.
-void checkField(Options& options, const std::string& slice);
+// Once the command line is parsed, what hangs on several options. Error: they do not go together.
+void finishExport(const Options& options);
+void finishMeasure(Options& options);
 
 // Adds `molecule` with its commands. A further one is a function in options_molecule.cpp that adds its
 // options, and a function of commands.h.
 void addMolecule(CLI::App& app, Options& options);
 
-// Once the command line is parsed: which command of `molecule` it is, if any, and its values. Error: out of
-// range, or not what is expected.
+// Once the command line is parsed: which command of `molecule` it is, if any. Error: as makeMolecule().
 void finishMolecule(const CLI::App& app, Options& options);
 
 // ---- Documents

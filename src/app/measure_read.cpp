@@ -19,7 +19,7 @@ const JsonValue& at(const JsonValue& object, const char* key) {
 
 Method methodOf(const JsonValue& value) {
     return {solverOf(at(value, "solver").text).value_or(SolverKind::leapfrog),
-            samplingNamed("fieldSampling", at(value, "fieldSampling").text)};
+            samplingOf(at(value, "fieldSampling").text)};
 }
 
 AccuracyPoint pointOf(const JsonValue& value) {

@@ -32,47 +32,53 @@ void addScene(CLI::App& command, Options& options) {
         ->type_name("SCENE");
 }
 
-void addOverrides(CLI::App& command, Options& options, Texts& texts) {
+void addOverrides(CLI::App& command, Options& options) {
     section(command, ofScene);
     addNumber(command, "--dt", options.dt, "Seconds that one frame simulates, instead of the scene's",
-              "a time in seconds");
-    command.add_option("--solver", texts.solver, "Method of every group, instead of the scene's")
+              "a time from 1e-5 to 1 s", [](double s) { return s >= 1e-5 && s <= 1; });
+    addRead(command, "--solver", "Method of every group, instead of the scene's",
+            [&options](const std::string& word) { options.solver = solverOf(word); })
         ->type_name(joined(solverWords(), "|"));
-    addWhole(command, "--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
-    command
-        .add_option("--field-sampling", options.fieldSampling,
-                    "Where and how often fields are read, instead of the scene's")
+    addWhole(command, "--substeps", options.substeps, "Substeps of a frame, instead of the scene's", 1,
+             maxSubsteps);
+    addRead(command, "--field-sampling", "Where and how often fields are read, instead of the scene's",
+            [&options](const std::string& word) { options.sampling = samplingOf(word); })
         ->type_name("vertexSubstep|vertexFrame|moleculeFrame");
     addCountAndSeed(command, options);
 }
 
-namespace {
-
-void addError(CLI::App& command, Options& options) {
-    section(command, ofScene);
-    addNumber(command, "--error", options.error,
-              "Cheapest solver, substeps and field sampling whose measured error is below this",
-              "an error such as 1e-3");
+void addError(CLI::App& command, Options& options, const std::string& what) {
+    addNumber(command, "--error", options.error, what, "a relative error above 0, at most 1",
+              [](double e) { return e > 0 && e <= 1; });
 }
 
-void addEdit(CLI::App& command, Options& options, Texts& texts) {
+namespace {
+
+const char* const cheapest =
+    "Cheapest solver, substeps and field sampling whose measured error is below this";
+
+void addScale(CLI::App& command, Options& options, const std::string& what) {
+    addNumber(command, "--scale", options.scale, what,
+              concat("a factor from ", window::leastScale, " to ", window::mostScale),
+              [](double s) { return s >= window::leastScale && s <= window::mostScale; });
+}
+
+void addEdit(CLI::App& command, Options& options) {
     addFile(command, "file", options.files,
             "Molecule file, or scene (.scene.json); one that is not there is begun")
         ->required()
         ->expected(1);
     command.add_option("--shape", options.editShape, "What a new molecule begins as (default sheet)")
+        ->check(oneOf(shapeNames()))
         ->type_name(joined(shapeNames(), "|"));
-    command.add_option("--size", texts.size, "Size of the window in pixels")
-        ->type_name("WxH")
-        ->capture_default_str();
-    addNumber(command, "--scale", options.scale,
-              "Pixels a point of the panels; as the screen asks unless given", "a number");
-    addWhole(command, "--frames", options.frames, "Close after so many frames");
+    addSize(command, options, "Size of the window in pixels");
+    addScale(command, options, "Pixels a point of the panels; as the screen asks unless given");
+    addWhole(command, "--frames", options.frames, "Close after so many frames", 1);
     addFile(command, "--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG");
     needs(command, "--screenshot", "--frames");
 }
 
-void addRun(CLI::App& command, Options& options, Texts& texts) {
+void addRun(CLI::App& command, Options& options) {
     command
         .add_option(
             "scene", options.files,
@@ -80,45 +86,44 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
             "those to choose from")
         ->expected(0, 1)
         ->type_name("SCENE");
-    addError(command, options);
-    addOverrides(command, options, texts);
-    addPath(command, options, texts);
-    addContext(command, options, texts);
+    section(command, ofScene);
+    addError(command, options, cheapest);
+    addOverrides(command, options);
+    addPath(command, options);
+    addContext(command, options);
     section(command, execution);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
-    addWhole(command, "--frames", options.frames, "Stop after so many frames (headless: 240)");
+    addWhole(command, "--frames", options.frames, "Stop after so many frames (headless: 240)", 1);
     command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
     section(command, "Pictures");
-    command.add_option("--size", texts.size, "Size of pictures, or of the window, in pixels")
-        ->type_name("WxH")
-        ->capture_default_str();
+    addSize(command, options, "Size of pictures, or of the window, in pixels");
     command
         .add_option("--capture", options.capture,
                     "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)")
+        ->check(endsIn({".png", ".mp4", ".mkv", ".webm", ".mov"}, true))
         ->type_name("TARGET");
-    addWhole(command, "--capture-every", options.captureEvery, "Take every n-th frame")
+    addWhole(command, "--capture-every", options.captureEvery, "Take every n-th frame", 1)
         ->capture_default_str();
     section(command, "State");
     command
         .add_option("--export", options.exports,
                     "Folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)")
+        ->check(endsIn({".csv", ".ply", ".vtp", ".pvd"}, true))
         ->type_name("TARGET");
-    addWhole(command, "--export-frames", options.exportFrames, "Frames to export (default: the last)")
+    addWhole(command, "--export-frames", options.exportFrames, "Frames to export (default: the last)", 0)
         ->delimiter(',');
-    addWhole(command, "--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)");
-    command.add_option("--export-cells", texts.exportCells, ".vtp, .pvd: what becomes cells")
-        ->type_name("surface|springs|vertices")
-        ->capture_default_str();
+    addWhole(command, "--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)", 1);
+    addWord(command, "--export-cells", options.exportCells, ".vtp, .pvd: what becomes cells",
+            {"surface", "springs", "vertices"});
     addFile(command, "--save", options.save, "File for the state at the end, to resume from");
-    addWhole(command, "--save-frames", options.saveFrames, "Frames to save (default: the last)")
+    addWhole(command, "--save-frames", options.saveFrames, "Frames to save (default: the last)", 0)
         ->delimiter(',');
     addFile(command, "--resume", options.resume,
             "Go on from the state in this file; --frames are further ones");
     section(command, reports);
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     section(command, "Window");
-    addNumber(command, "--scale", options.scale,
-              "Size of panels and letters, such as 2 (default: as the screen asks)", "a factor such as 1.5");
+    addScale(command, options, "Size of panels and letters, such as 2 (default: as the screen asks)");
     addFile(command, "--screenshot", options.screenshot, "Save its picture after --frames and close");
     needs(command, "--save-frames", "--save");
     needs(command, "--export-frames", "--export");
@@ -129,17 +134,6 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     excludes(command, "--export-every", {"--export-frames"});
     excludes(command, "--screenshot",
              {"--headless", "--capture", "--export", "--json", "--timings", "--gpu"});
-}
-
-void readExportCells(const std::string& word, Options& options) {
-    static const std::vector<std::string> words = {"surface", "springs", "vertices"};
-    const auto found = std::find(words.begin(), words.end(), word);
-    if (found == words.end())
-        throw Error(concat("--export-cells: unknown word \"", word, "\"", suggestion(word, words)));
-    options.exportCells = static_cast<ExportCells>(found - words.begin());
-    const std::string kind = lowerExtension(options.exports);
-    if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
-        throw Error("--export-cells is of --export to .vtp or .pvd");
 }
 
 // All long option names of a command, for suggestions.
@@ -172,51 +166,14 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
     return {};
 }
 
-// A name with an ending that we do not write is a mistake, not a folder.
-void checkTarget(const char* option, const std::string& target, const std::vector<std::string>& known) {
-    const std::string extension = lowerExtension(target);
-    const bool looksLikeOne = extension.size() >= 4 && extension.size() <= 5 &&
-                              std::all_of(extension.begin() + 1, extension.end(),
-                                          [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
-    if (!looksLikeOne || std::find(known.begin(), known.end(), extension) != known.end()) return;
-    throw Error(concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ",
-                       joined(known, ", ")));
-}
-
-void checkRanges(const Options& options) {
-    constexpr int any = std::numeric_limits<int>::max();
-    const auto within = [](const char* option, std::optional<int> value, int least, int most) {
-        if (value && *value < least)
-            throw Error(concat(option, ": expected at least ", least, ", found ", *value));
-        if (value && *value > most)
-            throw Error(concat(option, ": expected at most ", most, ", found ", *value));
-    };
-    within("--gpu", options.gpu, 0, any);
-    within("--frames", options.frames, 1, any);
-    if (options.scale && !(*options.scale >= window::leastScale && *options.scale <= window::mostScale))
-        throw Error(concat("--scale: expected ", window::leastScale, " to ", window::mostScale, ", found ",
-                           *options.scale));
-    // the limits of the scene file
-    within("--substeps", options.substeps, 1, maxSubsteps);
-    within("--count", options.count, 1, maxGroupCount);
-    within("--capture-every", options.captureEvery, 1, any);
-    for (const int frame : options.exportFrames)
-        within("--export-frames", frame, 0, any);
-    if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
-        throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
-    for (const int frame : options.saveFrames)
-        within("--save-frames", frame, 0, any);
-    within("--export-every", options.exportEvery, 1, any);
+// What goes together, of run and explain.
+void checkTogether(const Options& options) {
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
-    if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 3600))
-        throw Error(concat("--seconds: expected a time above 0, at most 3600 s, found ", *options.seconds));
-    const std::string plot = lowerExtension(options.plot);
-    if (!options.plot.empty() && plot != ".svg" && plot != ".png")
-        throw Error(concat("--plot: expected a name ending in .svg or .png, found \"", options.plot, "\""));
-    checkTarget("--capture", options.capture, {".png", ".mp4", ".mkv", ".webm", ".mov"});
-    checkTarget("--export", options.exports, {".csv", ".ply", ".vtp", ".pvd"});
+    const std::string kind = lowerExtension(options.exports);
+    if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
+        throw Error("--export-cells is of --export to .vtp or .pvd");
     const bool headlessWork =
         !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
     if (headlessWork && options.context == gpu::ContextKind::window)
@@ -231,16 +188,47 @@ void checkRanges(const Options& options) {
             "--shader prints the fused path's kernels as text: leave out --path ping-pong and --json");
 }
 
-}  // namespace
-
-void parseSize(const std::string& text, Options& options) {
+void readSize(const std::string& text, Options& options) {
     char end = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 ||
         options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
-        throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
+        throw Error(concat("expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
 }
 
-static void declare(CLI::App& app, Options& options, Texts& texts) {
+}  // namespace
+
+CLI::Validator oneOf(const std::vector<std::string>& words) {
+    return CLI::Validator(
+        [words](const std::string& word) {
+            if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+            return concat("unknown word \"", word, "\"", suggestion(word, words));
+        },
+        "");
+}
+
+CLI::Validator endsIn(const std::vector<std::string>& endings, bool orFolder) {
+    return CLI::Validator(
+        [endings, orFolder](const std::string& name) {
+            const std::string ending = lowerExtension(name);
+            const bool isEnding = ending.size() >= 4 && ending.size() <= 5 &&
+                                  std::all_of(ending.begin() + 1, ending.end(), [](char c) {
+                                      return std::isalnum(static_cast<unsigned char>(c));
+                                  });
+            if ((orFolder && !isEnding) || std::find(endings.begin(), endings.end(), ending) != endings.end())
+                return std::string();
+            return concat("expected ", orFolder ? "a folder, or " : "", "a name ending in ",
+                          joined(endings, " or "), ", found \"", name, "\"");
+        },
+        "");
+}
+
+CLI::Option* addSize(CLI::App& command, Options& options, const std::string& what) {
+    return addRead(command, "--size", what, [&options](const std::string& text) { readSize(text, options); })
+        ->type_name("WxH")
+        ->default_str(concat(options.width, "x", options.height));
+}
+
+static void declare(CLI::App& app, Options& options) {
     app.set_version_flag("--version", "shoal " SHOAL_VERSION);
     app.require_subcommand(1);
     app.formatter(helpFormat());
@@ -250,7 +238,7 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
         return out;
     };
     const char *scenes = "Scenes", *molecules = "Molecules", *machine = "This machine";
-    addRun(*add("run", "Run a scene: in a window, or headless with pictures", scenes), options, texts);
+    addRun(*add("run", "Run a scene: in a window, or headless with pictures", scenes), options);
     add("scenes", "List the scenes that ship, or those below a folder", scenes)
         ->add_option("folder", options.files, "Folder to look in (default: what ships)")
         ->expected(0, 1)
@@ -266,24 +254,22 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
         ->type_name("NAME");
     CLI::App* explain = add("explain", "Print what a scene compiles to, and why", scenes);
     addScene(*explain, options);
-    addOverrides(*explain, options, texts);
-    addError(*explain, options);
-    addPath(*explain, options, texts);
-    addContext(*explain, options, texts);
+    addOverrides(*explain, options);
+    addError(*explain, options, cheapest);
+    addPath(*explain, options);
+    addContext(*explain, options);
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
     explain->add_flag("--cost", options.cost,
                       "What each kernel moves and computes, and which of these bounds it on this device");
     excludes(*explain, "--cost", {"--shader"});
-    addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options, texts);
-    addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options,
-             texts.slice, texts.size);
-    addExport(*add("export", "Write a scene for game engines and viewers", scenes), options, texts);
-    addEdit(*add("edit", "Change a molecule or a scene in a window, while it moves", molecules), options,
-            texts);
+    addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options);
+    addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options);
+    addExport(*add("export", "Write a scene for game engines and viewers", scenes), options);
+    addEdit(*add("edit", "Change a molecule or a scene in a window, while it moves", molecules), options);
     addMolecule(app, options);
     app.get_subcommand("molecule")->group(molecules);
-    addContext(*add("info", "Print the OpenGL contexts that can be had", machine), options, texts);
-    addBench(*add("bench", "Measure speed, against the limit and the error", machine), options, texts);
+    addContext(*add("info", "Print the OpenGL contexts that can be had", machine), options);
+    addBench(*add("bench", "Measure speed, against the limit and the error", machine), options);
     for (const char* name : {"run", "check", "explain", "measure", "field", "export", "edit"})
         addSandbox(*app.get_subcommand(name), options);
     for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
@@ -332,27 +318,18 @@ static auto commandOf(const CLI::App& app) {
     return infoCommand;
 }
 
-static void finish(const CLI::App& app, Options& options, const Texts& texts) {
+static void finish(const CLI::App& app, Options& options) {
     options.command = commandOf(app);
-    options.context = gpu::contextKind(texts.context);
-    options.path = path(texts.path);
-    if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);
-    options.lanes = lanes(texts.lanes);
-    parseSize(texts.size, options);
     finishMolecule(app, options);
-    checkRanges(options);
-    if (options.fieldSampling) options.sampling = samplingNamed("--field-sampling", *options.fieldSampling);
-    readExportCells(texts.exportCells, options);
-    checkField(options, texts.slice);
-    finishMeasure(texts, options);
+    checkTogether(options);
+    finishMeasure(options);
     finishExport(options);
 }
 
 std::optional<Options> parseOptions(int argc, char** argv) {
     Options options;
-    Texts texts;
     CLI::App app("Shoal: very many small mass-spring meshes, simulated and drawn on the GPU", "shoal");
-    declare(app, options, texts);
+    declare(app, options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
@@ -364,7 +341,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         throw WrongUse(message + "; see " + nameOf(reached(app)) + " --help");
     }
     try {
-        finish(app, options, texts);
+        finish(app, options);
     } catch (const Error& error) {
         throw WrongUse(error.message());
     }

@@ -32,13 +32,9 @@ struct MoleculeOptions {
     std::string report;  // .html; empty: none
     std::string texture;
     std::string color;
-    std::string springs = "auto";
-    std::vector<std::string> pinRules, pinPoints;
     // new
     std::string shape = "sheet";
     std::optional<int> divisions;
-    // show
-    std::string sheet;  // its size in pixels; empty: the usual
 };
 
 // The options of `shoal export` (app/export_scene.cpp).
@@ -51,7 +47,6 @@ struct ExportOptions {
     int frames = 120;              // that are
     std::optional<int> molecules;  // at most; nothing: all
     int loop = 0;                  // frames that blend into the first
-    std::string texels = "png";
     exchange::TexelFormat format = exchange::TexelFormat::png16;
     bool rigid = false;
     std::optional<double> rigidWithin;  // m: of --usd, groups that are further off are meshes
@@ -74,8 +69,6 @@ struct Options : RunRequest {
     std::optional<int> frames;
     int width = 1280, height = 720;
     std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for
-
-    std::optional<std::string> fieldSampling;  // as it was typed
 
     std::string capture;   // folder, or a video's name
     int captureEvery = 1;  // frames
@@ -125,10 +118,7 @@ class WrongUse : public Error {
 // returns nothing then.
 std::optional<Options> parseOptions(int argc, char** argv);
 
-// "1280x720" into width and height. Error: not such a text, or out of range.
-void parseSize(const std::string& text, Options& options);
-
-// Error: unknown, with the nearest; `option` is what it was given to.
-FieldSampling samplingNamed(const char* option, const std::string& word);
+// Error: unknown, with the nearest.
+FieldSampling samplingOf(const std::string& word);
 
 }  // namespace shoal::app

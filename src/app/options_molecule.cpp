@@ -30,11 +30,15 @@ void addMaking(CLI::App& command, Options& options) {
     number("--density", make.density, "kg/m^3, instead of the material's");
     number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");
     number("--damping", make.damping, "Ratio of the lowest frequency, instead of the material's");
-    command.add_option("--pin", molecule.pinRules,
-                       "Pin what meets a rule: y<0.1 (share of the box) or y<0.02m (metres); repeatable");
+    addReads(command, "--pin",
+             "Pin what meets a rule: y<0.1 (share of the box) or y<0.02m (metres); repeatable",
+             [&make](const std::string& text) { make.pins.rules.push_back(parsePinRule(text)); });
     command.add_option("--name", make.name, "Of the molecule (default: that of the file)");
     addFile(command, "--texture", molecule.texture, "PNG beside the molecule file");
-    command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
+    addRead(command, "--color", "Linear RGB: red, or 0.2,0.5,0.1", [&molecule](const std::string& text) {
+        parsePaint(text);
+        molecule.color = text;
+    });
     command.add_flag("--json", options.json, "Report as JSON on standard output");
     addFile(command, "--report", molecule.report,
             "Page to write (.html): the molecule, its motions, warnings");
@@ -49,19 +53,21 @@ void addFromMesh(CLI::App& command, Options& options) {
              "At most so many are simulated (default 24, of a cage 40)");
     addWhole(command, "--rings", make.rings,
              "Instead: so many rings of four vertices along the longest side");
-    command
-        .add_option("--springs", molecule.springs,
-                    "lattice: tetrahedra that fill the volume; cage: about all parts")
-        ->type_name("auto|surface|lattice|cage")
-        ->capture_default_str();
+    addWord(command, "--springs", make.springs,
+            "lattice: tetrahedra that fill the volume; cage: about all parts",
+            {"auto", "surface", "lattice", "cage"});
     addNumber(command, "--size", make.size, "m, of the longest side (default: as in the file)", "a number");
     command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
     command.add_option("--pin-name", make.pins.names,
                        "Pin an object, mesh, material or bone of the file by name");
-    command.add_option("--pin-paint", make.pins.paints,
-                       "Pin what is painted in this vertex colour: red, or 1,0.5,0");
-    command.add_option("--pin-near", molecule.pinPoints,
-                       "Pin the vertex nearest to a point of the box: 0.5,1,0.5 is the middle of its top");
+    addReads(command, "--pin-paint", "Pin what is painted in this vertex colour: red, or 1,0.5,0",
+             [&make](const std::string& text) {
+                 parsePaint(text);
+                 make.pins.paints.push_back(text);
+             });
+    addReads(command, "--pin-near",
+             "Pin the vertex nearest to a point of the box: 0.5,1,0.5 is the middle of its top",
+             [&make](const std::string& text) { make.pins.points.push_back(parsePinPoint(text)); });
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
     addWhole(command, "--skin-triangles", make.skinTriangles,
@@ -73,6 +79,7 @@ void addNew(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     addFile(command, "molecule", options.files, "Molecule file to write (.json)")->required()->expected(1);
     command.add_option("--shape", molecule.shape, "What it begins as")
+        ->check(oneOf(shapeNames()))
         ->type_name(joined(shapeNames(), "|"))
         ->capture_default_str();
     addWhole(command, "--divisions", molecule.divisions, "Of its longest side (default: the shape's)");
@@ -83,50 +90,25 @@ void addNew(CLI::App& command, Options& options) {
 void addShow(CLI::App& command, Options& options) {
     addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
     addFile(command, "--capture", options.capture, "Picture to write (.png), required")->required();
-    command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)")
-        ->type_name("WxH");
+    addSize(command, options, "Of the picture in pixels")->default_str("1280x760");
 }
 
-void finishShow(Options& options) {
-    if (!options.molecule.sheet.empty())
-        parseSize(options.molecule.sheet, options);
-    else
-        options.width = 1280, options.height = 760;
+void finishShow(Options& options, bool sized) {
+    if (!sized) options.width = 1280, options.height = 760;
     if (options.width < 480 || options.height < 240 || options.width < options.height * 5 / 4)
         throw Error(concat("--size: a sheet needs at least 480x240 pixels and is wider than high, found ",
                            options.width, "x", options.height));
 }
 
-template <typename Read>
-auto valueOf(const char* option, Read&& read) {
-    try {
-        return read();
-    } catch (const Error& error) {
-        throw Error(concat(option, ": ", error.message()));
-    }
-}
-
 void finishMaking(MoleculeOptions& molecule, const std::string& file, const char* command) {
     FromMesh& make = molecule.fromMesh;
-    const std::vector<std::string> springs = {"auto", "surface", "lattice", "cage"};
-    const auto found = std::find(springs.begin(), springs.end(), molecule.springs);
-    if (found == springs.end())
-        throw Error(concat("--springs: expected auto, surface, lattice or cage, found \"", molecule.springs,
-                           "\"", suggestion(molecule.springs, springs)));
-    make.springs = FromMesh::Springs(found - springs.begin());
-    for (const std::string& text : molecule.pinRules)
-        make.pins.rules.push_back(valueOf("--pin", [&] { return parsePinRule(text); }));
-    for (const std::string& text : make.pins.paints)
-        valueOf("--pin-paint", [&] { return parsePaint(text); });
-    for (const std::string& text : molecule.pinPoints)
-        make.pins.points.push_back(valueOf("--pin-near", [&] { return parsePinPoint(text); }));
-    if (!molecule.color.empty()) valueOf("--color", [&] { return parsePaint(molecule.color); });
     if (make.name.empty())
         make.name = std::filesystem::path(molecule.output.empty() ? file : molecule.output).stem().string();
-    valueOf(command, [&] {
+    try {
         checkOptions(make);
-        return 0;
-    });
+    } catch (const Error& error) {
+        throw Error(concat(command, ": ", error.message()));
+    }
 }
 
 }  // namespace
@@ -151,12 +133,11 @@ void finishMolecule(const CLI::App& app, Options& options) {
     if (molecule->get_subcommand("new")->parsed()) {
         options.command = moleculeNewCommand;
         options.molecule.output = options.files.front();
-        valueOf("--shape", [&] { return shapeNamed(options.molecule.shape); });
         finishMaking(options.molecule, options.files.front(), "molecule new");
     }
     if (molecule->get_subcommand("show")->parsed()) {
         options.command = moleculeShowCommand;
-        finishShow(options);
+        finishShow(options, molecule->get_subcommand("show")->count("--size") > 0);
     }
 }
 

@@ -177,8 +177,10 @@ TEST_CASE("a step that is too long names the substeps that would do", "[cli]") {
 }
 
 TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
-    refusal({"run", squaresScene(), "--headless", "--count", "1073741825"}, "expected at most 1073741824");
-    refusal({"explain", squaresScene(), "--count", "2147483647"}, "expected at most 1073741824");
+    refusal({"run", squaresScene(), "--headless", "--count", "1073741825"},
+            "expected a whole number from 1 to 1073741824");
+    refusal({"explain", squaresScene(), "--count", "2147483647"},
+            "expected a whole number from 1 to 1073741824");
     const Scratch scratch;  // 9 vertices each are too many before that
     const std::string scene = scratch.write(
         "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 900000000, "molecule": ")" +

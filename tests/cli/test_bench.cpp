@@ -84,14 +84,16 @@ TEST_CASE("bench leaves out what the context lacks", "[cli]") {
 }
 
 TEST_CASE("bench refuses what it cannot do", "[cli]") {
-    refusal({"bench", "--seconds", "0"}, "--seconds: expected a time above 0, at most 3600 s, found 0");
+    refusal({"bench", "--quick", "--report", ""}, "--report: expected the name of a file");
+    refusal({"bench", "--seconds", "0"}, "--seconds: expected a time above 0, at most 3600 s, found \"0\"");
     refusal({"bench", "--seconds", "nan"}, "--seconds: expected a time above 0");
-    refusal({"bench", "--seconds", "ten"}, "--seconds: expected a time in seconds, found \"ten\"");
+    refusal({"bench", "--seconds", "ten"},
+            "--seconds: expected a time above 0, at most 3600 s, found \"ten\"");
     refusal({"bench", "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png, found \"x.pdf\"");
     refusal({"bench", "--context", "egll"}, "did you mean \"egl\"?");
     refusal({"bench", "--quik"}, "unknown option --quik (did you mean \"--quick\"?)");
     refusal({"bench", "squares.scene.json"}, "squares.scene.json");
-    refusal({"bench", "sorr"}, "bench: unknown \"sorr\" (did you mean \"sort\"?)");
+    refusal({"bench", "sorr"}, "bench: unknown word \"sorr\" (did you mean \"sort\"?)");
     refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
     refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");
     refusal({"bench", "collide", "--only", "squids"}, "there are \"molecules\" and \"searches\"");

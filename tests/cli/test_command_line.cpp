@@ -47,22 +47,22 @@ TEST_CASE("values out of range are refused", "[cli]") {
         {"--size", "0x90", "--size: expected WIDTHxHEIGHT"},
         {"--size", "160x90x3", "--size: expected WIDTHxHEIGHT"},
         {"--size", "160x99999", "--size: expected WIDTHxHEIGHT"},
-        {"--dt", "0", "--dt: expected a time from 1e-5 to 1 s, found 0"},
+        {"--dt", "0", "--dt: expected a time from 1e-5 to 1 s, found \"0\""},
         {"--dt", "-0.1", "--dt: expected a time from 1e-5 to 1 s"},
-        {"--dt", "nan", "--dt: expected a time from 1e-5 to 1 s, found nan"},
-        {"--dt", "1s", "--dt: expected a time in seconds, found \"1s\""},
+        {"--dt", "nan", "--dt: expected a time from 1e-5 to 1 s, found \"nan\""},
+        {"--dt", "1s", "--dt: expected a time from 1e-5 to 1 s, found \"1s\""},
         {"--solver", "eulr", "unknown solver \"eulr\" (did you mean \"euler\"?)"},
-        {"--frames", "0", "--frames: expected at least 1, found 0"},
-        {"--frames", "1.5", "--frames: expected a whole number, found \"1.5\""},
+        {"--frames", "0", "--frames: expected a whole number, 1 or more, found \"0\""},
+        {"--frames", "1.5", "--frames: expected a whole number, 1 or more, found \"1.5\""},
         {"--frames", "99999999999", "--frames: expected a whole number"},
-        {"--substeps", "0", "--substeps: expected at least 1, found 0"},
-        {"--count", "0", "--count: expected at least 1, found 0"},
+        {"--substeps", "0", "--substeps: expected a whole number from 1 to 1000, found \"0\""},
+        {"--count", "0", "--count: expected a whole number from 1 to 1073741824, found \"0\""},
         {"--context", "egll", "unknown context \"egll\" (did you mean \"egl\"?)"},
         {"--seed", "x", "--seed: expected a whole number"},
         {"--seed", "-1", "--seed: expected a whole number from 0"},
-        {"--capture-every", "0", "--capture-every: expected at least 1"},
-        {"--export-frames", "-1", "--export-frames: expected at least 0"},
-        {"--export-frames", "1,x", "--export-frames: expected a whole number, found \"x\""},
+        {"--capture-every", "0", "--capture-every: expected a whole number, 1 or more"},
+        {"--export-frames", "-1", "--export-frames: expected a whole number, 0 or more"},
+        {"--export-frames", "1,x", "--export-frames: expected a whole number, 0 or more, found \"x\""},
     };
     for (const Case& one : cases)
         refusal({"run", squaresScene(), "--headless", "--capture", "x", "--export", "x.csv",
@@ -128,7 +128,8 @@ TEST_CASE("--gpu takes one of the devices that info lists", "[cli]") {
     const std::string beyond = std::to_string(devices.size());
     refusal({"run", squaresScene(), "--gpu", beyond, "--frames", "1"}, "there is no device " + beyond);
     refusal({"info", "--gpu", beyond}, "there is no device " + beyond);
-    refusal({"run", squaresScene(), "--gpu", "-1", "--frames", "1"}, "--gpu: expected at least 0, found -1");
+    refusal({"run", squaresScene(), "--gpu", "-1", "--frames", "1"},
+            "--gpu: expected a whole number, 0 or more, found \"-1\"");
     refusal({"run", squaresScene(), "--gpu", "0", "--context", "egl"}, "excludes");
     if (devices.empty()) {
         WARN("skipped: EGL lists no devices here");

@@ -177,9 +177,10 @@ TEST_CASE("wrong words of --export", "[cli][exchange]") {
         all.insert(all.end(), more.begin(), more.end());
         refusal(all, part);
     };
-    refused({"--export", "x.obj"}, "cannot write \".obj\"");
+    refused({"--export", "x.obj"}, "a name ending in .csv or .ply or .vtp or .pvd, found \"x.obj\"");
     refused({"--export-every", "2"}, "--export-every requires --export");
-    refused({"--export", "x.vtp", "--export-every", "0"}, "--export-every: expected at least 1, found 0");
+    refused({"--export", "x.vtp", "--export-every", "0"},
+            "--export-every: expected a whole number, 1 or more, found \"0\"");
     refused({"--export", "x.vtp", "--export-every", "3"}, "--export-every 3 is beyond the last frame, 2");
     refused({"--export", "x.vtp", "--export-every", "1", "--export-frames", "1"},
             "--export-frames excludes --export-every");

@@ -423,14 +423,15 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
     refuses({"--glb", scratch.path("a.obj")}, "expected a name ending in .glb");
     refuses({"--vat", folder, "--glb", scratch.path("a.glb")}, "excludes");
     refuses({"--vat", folder, "--group", "quads"}, "no group \"quads\" (did you mean \"quad\"?)");
-    refuses({"--vat", folder, "--frames", "9000"}, "--frames: expected 1 to 8192, found 9000");
-    refuses({"--vat", folder, "--frames", "5", "--loop", "5"}, "--loop: expected 0 to 4, found 5");
+    refuses({"--vat", folder, "--frames", "9000"}, "--frames: textures hold at most 8192, found 9000");
+    refuses({"--vat", folder, "--frames", "5", "--loop", "5"},
+            "--loop: expected fewer than the 5 frames, found 5");
     refuses({"--vat", folder, "--molecules", "21"}, "--molecules: group \"quad\" has 20, found 21");
     refuses({"--vat", folder, "--texels", "jpg"}, "--texels: unknown word \"jpg\"");
     refuses({"--vat", "/proc/nothing"}, "/proc/nothing");
     refusal({"export", squaresScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
-    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "-1"}, "expected metres, 0 or more");
-    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "nan"}, "expected metres, 0 or more");
+    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "-1"}, "expected a length of at least 0 m");
+    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "nan"}, "expected a length of at least 0 m");
     refuses({"--vat", scratch.path("a"), "--rigid-within", "1"}, "--usd");
     refuses({"--usd", scratch.path("a.usdc")}, "expected a folder, or a name ending in .usda");
     refuses({"--usd", scratch.path("a.usda"), "--glb", scratch.path("a.glb")}, "excludes");

@@ -69,7 +69,7 @@ TEST_CASE("field: warns and refuses in one line", "[cli][field]") {
     CHECK(outcome.out.find("a shell 0.125 m thick") != std::string::npos);
 
     refusal({"field", model, "--resolution", "16", "--error", "0.1"}, "--resolution excludes --error");
-    refusal({"field", model, "--resolution", "2"}, "expected 4 to 2048, found 2");
+    refusal({"field", model, "--resolution", "2"}, "expected a whole number from 4 to 2048, found \"2\"");
     refusal({"field", model, "--resolution", "500"}, "at most resolution 248 fits");
     refusal({"field", model, "--error", "-1"}, "--error");
     refusal({"field", model, "--slice", "w=1", "--capture", "a.png"}, "expected x, y or z and a position");

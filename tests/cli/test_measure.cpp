@@ -220,7 +220,8 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
     const std::string scene = shearScene(scratch);
     for (const char* bad : {"0", "-1e-3", "nan", "2"})
         refusal({"run", scene, "--headless", "--error", bad}, "--error: expected a relative error above 0");
-    refusal({"explain", scene, "--error", "small"}, "--error: expected an error such as 1e-3");
+    refusal({"explain", scene, "--error", "small"},
+            "--error: expected a relative error above 0, at most 1, found \"small\"");
     const std::string message = refusal(
         {"explain", scene, "--error", "1e-4", "--solver", "euler", "--substeps", "8"},
         "--error 0.0001 is out of reach for a sample of its molecules: the nearest is euler with 8 substeps",
@@ -239,7 +240,8 @@ TEST_CASE("measure refuses what it cannot do", "[cli]") {
     refusal({"measure", squaresScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");
     refusal({"measure", squaresScene(), "--samplings", "vertex"}, "--samplings: unknown sampling \"vertex\"");
     refusal({"measure", squaresScene(), "--duration", "0"}, "--duration: expected a time above 0");
-    refusal({"measure", squaresScene(), "--molecules", "0"}, "--molecules: expected 1 to 1024, found 0");
+    refusal({"measure", squaresScene(), "--molecules", "0"},
+            "--molecules: expected a whole number from 1 to 1024, found \"0\"");
     refusal({"measure", squaresScene(), "--seconds", "nan"}, "--seconds: expected a time above 0");
     refusal({"measure", squaresScene(), "--error", "0"}, "--error: expected a relative error above 0");
     refusal({"measure", squaresScene(), "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png");

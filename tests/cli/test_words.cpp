@@ -165,7 +165,7 @@ TEST_CASE("messages point to the help of the command they are of", "[cli]") {
     refusal({"check"}, "; see shoal check --help");
     refusal({"molecule", "shw"}, "; see shoal molecule --help");
     refusal({"molecule", "show", "x.json", "--captur", "x.png"}, "; see shoal molecule show --help");
-    refusal({"bench", "nope"}, "expected sort, collide, particles, school or nothing");
+    refusal({"bench", "nope"}, "expected one of sort, collide, particles, school");
 }
 
 TEST_CASE("help is in groups, and every option of it is on the man page and completed", "[cli]") {
