@@ -149,15 +149,8 @@ static DrawMaker drawMaker(gpu::Context& context) {
     };
 }
 
-// The driver is asked to tell of a lost device where a report must not be of one.
-static gpu::ContextOptions contextOf(const Options& options) {
-    gpu::ContextOptions out = hiddenContext(options);
-    out.tellsLoss = !options.report.empty();
-    return out;
-}
-
 BenchSession::BenchSession(const Options& options, double usual, double quick)
-    : context(contextOf(options)),
+    : context(hiddenContext(options)),
       contextSeconds(measure::secondsSince(start)),
       machine(measuredOn(context)),
       device{&context, drawMaker(context), machine.cores, {}, false, !context.info().software} {

@@ -21,7 +21,7 @@ int explainCommand(const Options& options) {
     std::optional<SceneCost> cost;
     if (options.cost) cost = sceneCost(options, loaded);
     const PathLimits limits;
-    const PathChoice choice = choosePath(loaded.plan, options.path, limits);
+    const PathChoice choice = choosePath(loaded.plan, options.path, limits, options.lanes);
     if (options.shader && choice.path == Path::pingPong)
         throw WrongUse("--shader prints the fused path's kernels; this scene runs on the other path: " +
                        choice.why);
@@ -38,9 +38,9 @@ int explainCommand(const Options& options) {
         if (cost) std::cout << "\n" << asText(*cost);
         return 0;
     }
-    std::cout
-        << "// As a GPU gets it. A CPU rasteriser keeps more molecules in a lane (--lanes molecule), and "
-           "stores and\n// reads uniforms in its own way.\n";
+    std::string shaders =
+        "// As a GPU gets it. A CPU rasteriser keeps more molecules in a lane (--lanes molecule), and stores "
+        "and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
         kernel.watch = true;
@@ -50,8 +50,9 @@ int explainCommand(const Options& options) {
             kernel.lanes = chooseLanes(loaded.plan, loaded.plan.groups[g], options.lanes, limits);
             kernel.normals = true;
         }
-        std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";
+        shaders += kernelShader(shaderRoot(), loaded.plan, g, kernel) + "\n";
     }
+    std::cout << shaders;
     return 0;
 }
 

@@ -47,7 +47,7 @@ JsonValue asJson(const KernelCost& cost, const SceneCost& all) {
 SceneCost sceneCost(const Options& options, const Loaded& loaded) {
     gpu::Context context(hiddenContext(options));
     const PathLimits limits = limitsOf(context.info());
-    const PathChoice choice = choosePath(loaded.plan, options.path, limits);
+    const PathChoice choice = choosePath(loaded.plan, options.path, limits, options.lanes);
     if (choice.path == Path::pingPong)
         throw WrongUse("--cost is of the fused path's kernels; this scene runs on the other path: " +
                        choice.why);
@@ -56,7 +56,7 @@ SceneCost sceneCost(const Options& options, const Loaded& loaded) {
     device.ownTimes = !context.info().software;
     SceneCost out{measuredOn(context), context.info().software,
                   deviceRates(device, processorName(), cacheFolder()),
-                  kernelCosts(loaded.scene, loaded.plan, choice, options.lanes, limits)};
+                  kernelCosts(loaded.scene, loaded.plan, choice, limits)};
     context.checkErrors("--cost");
     return out;
 }

@@ -170,7 +170,7 @@ size_t bytesPerMolecule(const GroupPlan& group, bool drawn) {
 }
 
 std::vector<KernelCost> kernelCosts(const Scene& scene, const Plan& plan, const PathChoice& choice,
-                                    Lanes lanes, const PathLimits& limits) {
+                                    const PathLimits& limits) {
     EXPECTS(choice.path == Path::fused || choice.path == Path::fragments);
     std::vector<KernelCost> out;
     for (const GroupPlan& group : plan.groups) {
@@ -187,7 +187,7 @@ std::vector<KernelCost> kernelCosts(const Scene& scene, const Plan& plan, const 
             cost.draws = (stored + limits.targets - 1) / limits.targets;
             cost.bytes += double(cost.draws - 1) * cost.stateFetches * sizeof(glm::vec4);
         } else {
-            cost.lanes = chooseLanes(plan, group, lanes, limits);
+            cost.lanes = chooseLanes(plan, group, choice.lanes, limits);
         }
         cost.operations = cost.draws * step.operations;
         cost.tableFetches = cost.draws * step.fetches;

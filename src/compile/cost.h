@@ -56,6 +56,6 @@ struct KernelCost {
 
 // One for each group. `scene`: what the plan was compiled from. `choice`: fused or in fragments (a contract).
 std::vector<KernelCost> kernelCosts(const Scene& scene, const Plan& plan, const PathChoice& choice,
-                                    Lanes lanes, const PathLimits& limits);
+                                    const PathLimits& limits);
 
 }  // namespace shoal

@@ -17,26 +17,35 @@ const char* when(PassPlan::When moment) {
     return words[size_t(moment)];
 }
 
-// How its molecules are spread over lanes, on either kind of device.
-std::string lanesText(const Plan& plan, const GroupPlan& group) {
+// The form that a group takes on either kind of device.
+std::string formOn(const Plan& plan, const GroupPlan& group, Lanes wanted, bool software) {
     PathLimits limits;
-    const std::string onGpu = name(chooseLanes(plan, group, Lanes::automatic, limits));
-    limits.software = true;
-    std::string onRasteriser;
+    limits.software = software;
     try {
-        const Lanes lanes = chooseLanes(plan, group, Lanes::automatic, limits);
-        onRasteriser = concat("a lane a ", name(lanes));
-        if (lanes == Lanes::molecule)
-            onRasteriser += concat(", compiled in about ", std::lround(secondsToCompile(plan, group)), " s");
+        return name(chooseLanes(plan, group, wanted, limits));
     } catch (const Error&) {
-        onRasteriser = "refused, since it would compile for too long";
+        return "refused";  // it would compile for too long
     }
-    const std::string why =
-        solver(group.solver).implicit
-            ? concat("; ", name(group.solver), " goes over the springs one after the other, in one lane")
-            : concat("; a lane a vertex holds ", FusedLimits::vertices(limits.maxSharedBytes),
-                     " vertices with ", limits.maxSharedBytes, " bytes of shared memory");
-    return concat("on a GPU a lane a ", onGpu, ", on a CPU rasteriser ", onRasteriser, why);
+}
+
+// How its molecules are spread over lanes.
+std::string lanesText(const Plan& plan, const GroupPlan& group, Lanes wanted) {
+    const PathLimits limits;
+    const std::string onRasteriser = formOn(plan, group, wanted, true);
+    std::string out =
+        concat("on a GPU a lane a ", formOn(plan, group, wanted, false), ", on a CPU rasteriser ");
+    if (onRasteriser == "refused")
+        out += "refused, since it would compile for too long";
+    else
+        out += "a lane a " + onRasteriser;
+    if (onRasteriser == name(Lanes::molecule))
+        out += concat(", compiled in about ", std::lround(secondsToCompile(plan, group)), " s");
+    if (wanted != Lanes::automatic) return out + ", as asked";
+    return out +
+           (solver(group.solver).implicit
+                ? concat("; ", name(group.solver), " goes over the springs one after the other, in one lane")
+                : concat("; a lane a vertex holds ", FusedLimits::vertices(limits.maxSharedBytes),
+                         " vertices with ", limits.maxSharedBytes, " bytes of shared memory"));
 }
 
 }  // namespace
@@ -187,7 +196,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             listPasses(out, plan, g);
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
-        if (choice.path == Path::fused) out << "  lanes    " << lanesText(plan, group) << "\n";
+        if (choice.path == Path::fused) out << "  lanes    " << lanesText(plan, group, choice.lanes) << "\n";
         if (group.skinTriangleCount > 0)
             out << "  drawn    as a skin of " << many(group.skinTriangleCount, "triangle", "triangles")
                 << ", " << int64_t(group.skinTriangleCount) * group.count
@@ -204,8 +213,9 @@ static JsonValue passEntry(const char* pass, const char* moment, const std::stri
     return object(key("pass", pass), key("when", moment), key("why", why));
 }
 
-static JsonValue groupEntry(const Plan& plan, size_t g, Path path) {
+static JsonValue groupEntry(const Plan& plan, size_t g, const PathChoice& choice) {
     const GroupPlan& group = plan.groups[g];
+    const Path path = choice.path;
     std::vector<JsonValue> passes;
     if (path != Path::pingPong) passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
     for (const PassPlan& pass : plan.passes)
@@ -223,13 +233,16 @@ static JsonValue groupEntry(const Plan& plan, size_t g, Path path) {
     if (const SchoolMember* member = plan.school.memberOf(g))
         append(out, key("schoolGrids", 1 + member->targetGrids.size()));
     if (group.forces.any()) append(out, key("forces", forceNames(plan, group)));
+    if (path == Path::fused)
+        append(out, key("lanes", object(key("gpu", formOn(plan, group, choice.lanes, false)),
+                                        key("rasteriser", formOn(plan, group, choice.lanes, true)))));
     return append(out, key("passes", passes));
 }
 
 JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::vector<JsonValue> groups;
     for (size_t g = 0; g < plan.groups.size(); ++g)
-        groups.push_back(groupEntry(plan, g, choice.path));
+        groups.push_back(groupEntry(plan, g, choice));
     JsonValue out = object(key("scene", plan.sceneName), key("path", name(choice.path)),
                            key("fieldSampling", name(plan.fieldSampling)), key("frameRate", plan.frameRate),
                            key("substeps", plan.substeps),

@@ -205,7 +205,8 @@ Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const 
         if (wanted == Lanes::automatic && fitsLane(group)) return Lanes::molecule;
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a workgroup holds at most ",
-                                           FusedLimits::vertices(limits.maxSharedBytes), " on this device"));
+                                           FusedLimits::vertices(limits.maxSharedBytes), " in ",
+                                           limits.maxSharedBytes, " bytes of shared memory"));
     }
     if (wanted == Lanes::automatic)
         return fitsLane(group) && prefersLane(plan, group, limits) ? Lanes::molecule : Lanes::vertex;

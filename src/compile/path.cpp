@@ -103,20 +103,13 @@ void checkUniforms(const Plan& plan, const PathLimits& limits) {
                            " on this device"));
 }
 
-// A molecule that is too large for a workgroup's shared memory.
-void checkFused(const Plan& plan, const PathLimits& limits) {
+void checkFused(const Plan& plan, const PathLimits& limits, Lanes lanes) {
     if (!limits.compute)
         throw Error(concat("compute shaders need OpenGL 4.3; this context has ", limits.version));
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
-        const int most = std::max(FusedLimits::vertices(limits.maxSharedBytes), FusedLimits::laneVertices);
         checkMatrix(group, limits);
-        if (solver(group.solver).implicit || group.needs.life)
-            chooseLanes(plan, group, Lanes::automatic, limits);
-        if (group.vertexCount <= most) continue;
-        throw Error(group.location,
-                    concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
-                           " vertices; the fused path holds at most ", most, " on this device"));
+        chooseLanes(plan, group, lanes, limits);
     }
 }
 
@@ -171,26 +164,32 @@ Path path(const std::string& word) {
         concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "fragments", "ping-pong"})));
 }
 
-PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
+static PathChoice choose(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
     checkTables(plan, limits);
     if (wanted == Path::pingPong) {
+        if (lanes != Lanes::automatic) throw Error("lanes are of the fused path, not of ping-pong");
         checkPingPong(plan, limits);
         return {Path::pingPong, "as asked"};
     }
+    const bool inFragments = wanted == Path::fragments || !limits.compute;
+    if (inFragments && lanes == Lanes::vertex)
+        throw Error(concat("a lane a vertex needs compute shaders",
+                           limits.compute ? "" : concat(", OpenGL 4.3; this context has ", limits.version)));
     if (wanted == Path::fragments) {
         checkFragments(plan, limits);
         return {Path::fragments, "as asked"};
     }
-    if (wanted == Path::fused && limits.compute) {
-        checkFused(plan, limits);
+    const bool asked = wanted == Path::fused || lanes != Lanes::automatic;
+    if (asked && limits.compute) {
+        checkFused(plan, limits, lanes);
         return {Path::fused, "as asked"};
     }
-    if (wanted == Path::fused) {
+    if (asked) {
         checkFragments(plan, limits);
         return {Path::fragments,
                 concat("as asked, in fragment shaders: OpenGL ", limits.version, " has no compute shaders")};
     }
-    const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits); });
+    const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits, lanes); });
     if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
     // What a CPU rasteriser would compile for too long as compute shaders, it would for as long as fragments.
     const bool tooLong = limits.compute && limits.software &&
@@ -205,6 +204,12 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
         throw Error(first.location().empty() ? other->location() : first.location(),
                     concat("no path can run this scene: ", first.message(), "; ", other->message()));
     return {Path::pingPong, first.message()};
+}
+
+PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
+    PathChoice out = choose(plan, wanted, limits, lanes);
+    out.lanes = lanes;
+    return out;
 }
 
 static int mostVertices(Path wanted, const PathLimits& limits) {

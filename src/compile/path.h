@@ -37,13 +37,16 @@ struct PathLimits {
 
 struct PathChoice {
     Path path = Path::fused;
-    std::string why;  // for people: why not another
+    std::string why;                 // for people: why not another
+    Lanes lanes = Lanes::automatic;  // as they are demanded
 };
 
 // Error: the path that is demanded (or, for automatic, any) cannot run the plan: no OpenGL 4.3, a molecule
 // with too many vertices and how many would do, more molecules than the textures hold and how many would fit,
-// a field sampling that the ping-pong path does not have.
-PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits);
+// a field sampling that the ping-pong path does not have; the lanes that are demanded are not of the path, or
+// do not hold a molecule.
+PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits,
+                      Lanes lanes = Lanes::automatic);
 
 // Error, located: a molecule has more vertices than any path holds that is `wanted`. choosePath() says so,
 // too; this follows from the scene alone, whose plan takes long for large molecules.

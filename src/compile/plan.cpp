@@ -112,34 +112,6 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     return out;
 }
 
-// Placing takes memory here before any device is asked: of a molecule its record, constants and life, of a
-// vertex its position and velocity.
-void checkCount(const Scene& scene, size_t index, const Plan& plan) {
-    constexpr int64_t most = std::numeric_limits<int>::max();  // vertices, which are counted in int
-    int64_t before = 0;
-    for (const GroupPlan& group : plan.groups)
-        before += int64_t(group.count) * group.vertexCount;
-    const Group& group = scene.groups[index];
-    const int64_t count = placesOf(group);
-    if (count < 1) throw Error(group.location, "a group needs at least one molecule");
-    const int64_t vertices = int64_t(group.molecule.vertices.size());
-    const int64_t ofLife = group.life ? int64_t(2 * sizeof(glm::vec2) + sizeof(uint32_t)) : 0;
-    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13 + ofLife;
-    const int64_t available = availableMemory();
-    const int64_t fit = (most - before) / vertices, held = available / each;
-    const auto refuse = [&](const std::string& why, int64_t fitting) {
-        throw Error(group.location,
-                    concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
-                           before > 0 ? ", beside the groups before," : "", why, ": at most ", fitting,
-                           " such molecules fit"));
-    };
-    if (count > fit) refuse(concat(" are more than the ", most, " vertices that a scene may have"), fit);
-    if (count > held)
-        refuse(concat(" take ", (count * each) >> 20, " MiB to start; ", available >> 20,
-                      " MiB of memory are free"),
-               held);
-}
-
 // The allocators on the CPU know of no death but of age.
 void warnOfBooks(Plan& plan) {
     for (const GroupPlan& group : plan.groups) {
@@ -351,8 +323,41 @@ size_t Plan::tableBytes() const {
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4) + tiles;
 }
 
+// Placing takes memory here before any device is asked: of a molecule its record, constants and life, of a
+// vertex its position and velocity.
+void checkCounts(const Scene& scene) {
+    int64_t left = std::numeric_limits<int>::max();  // vertices, which are counted in int
+    for (const Group& group : scene.groups) {
+        const int64_t count = placesOf(group);
+        if (count < 1) throw Error(group.location, "a group needs at least one molecule");
+        const int64_t vertices = int64_t(group.molecule.vertices.size());
+        const int64_t ofLife = group.life ? int64_t(2 * sizeof(glm::vec2) + sizeof(uint32_t)) : 0;
+        const int64_t each =
+            vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13 + ofLife;
+        const int64_t available = availableMemory();
+        const int64_t fit = left / vertices, held = available / each;
+        const auto refuse = [&](const std::string& why, int64_t fitting) {
+            throw Error(
+                group.location,
+                concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
+                       &group != &scene.groups.front() ? ", beside the groups before," : "", why,
+                       ": at most ", fitting, " such molecules fit"));
+        };
+        if (count > fit)
+            refuse(concat(" are more than the ", std::numeric_limits<int>::max(),
+                          " vertices that a scene may have"),
+                   fit);
+        if (count > held)
+            refuse(concat(" take ", (count * each) >> 20, " MiB to start; ", available >> 20,
+                          " MiB of memory are free"),
+                   held);
+        left -= count * vertices;
+    }
+}
+
 Plan compile(const Scene& scene, const CompileOptions& options) {
     checkScene(scene);
+    checkCounts(scene);
     for (const Collider& collider : scene.colliders)
         checkTurn(scene, collider);
     Plan plan;
@@ -369,7 +374,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.jointContact = respondTogether(scene.colliders);
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
-        checkCount(scene, i, plan);
         GroupPlan group = layOut(scene, i, options, plan);
         if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
             plan.warnings.push_back(

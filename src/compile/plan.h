@@ -149,6 +149,10 @@ struct CompileOptions {
     bool liveSprings = false;
 };
 
+// Error, located: the scene has more vertices than are counted, or memory has no room for its start.
+// compile() says so, too.
+void checkCounts(const Scene& scene);
+
 // Error: what checkScene() refuses (scene/json/scene_file.h); fields or colliders take more uniforms than
 // OpenGL 3.3 promises; or the substep is beyond what the explicit solver holds stable (located at the solver,
 // else at the group), and how many substeps would do.

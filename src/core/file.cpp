@@ -293,6 +293,8 @@ PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks
     const Location location{given_.string()};
     std::error_code code;
     const fs::path folder = target_.parent_path();
+    for (fs::path one = folder; !one.empty() && !fs::exists(one, code); one = one.parent_path())
+        folders_.push_back(one);
     if (!folder.empty()) fs::create_directories(folder, code);
     if (code) throw Error(Location{folder.string()}, "cannot make this folder: " + code.message());
     struct stat status {
@@ -314,6 +316,12 @@ PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks
                                               : concat("cannot be written: ", std::strerror(errno)));
     slot_ = takeSlot(path_.string());
     ::flock(file_, LOCK_EX | LOCK_NB);  // where there are no locks, the process's number has to do
+}
+
+PartFile::NewFolders::~NewFolders() {
+    std::error_code ignored;
+    for (const fs::path& folder : *this)
+        fs::remove(folder, ignored);
 }
 
 PartFile::~PartFile() {

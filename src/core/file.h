@@ -83,8 +83,8 @@ class FileReader {
 // left goes when another one first writes into that folder; a lock tells it from what is still written.
 class PartFile {
   public:
-    // Makes missing folders. Through a link, into what it points to. Error: cannot be created, or what is
-    // there is no regular file, which cannot be replaced.
+    // Makes missing folders, which go with it as well. Through a link, into what it points to. Error: cannot
+    // be created, or what is there is no regular file, which cannot be replaced.
     explicit PartFile(const std::filesystem::path& target);
     ~PartFile();
     PartFile(const PartFile&) = delete;
@@ -95,7 +95,12 @@ class PartFile {
     void replaceTarget();                                        // Error: cannot be renamed
 
   private:
+    // Folders that were made, the innermost first; those that are empty go with it.
+    struct NewFolders : std::vector<std::filesystem::path> {
+        ~NewFolders();
+    };
     std::filesystem::path given_, target_, path_;
+    NewFolders folders_;
     int file_ = -1, slot_ = -1;
 };
 

@@ -84,7 +84,6 @@ struct ContextOptions {
     // is current now and whenever Shoal is called. It is never released or destroyed.
     void (*(*loader)(const char* name))() = nullptr;
     std::optional<int> device;  // EGL: that of probeDevices(); nothing: the best that there is
-    bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
     std::string shaders = {};   // folder of the shaders that programs are made of
     std::string cache = {};     // folder in which linked programs are kept; empty: nowhere
 };

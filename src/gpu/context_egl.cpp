@@ -165,12 +165,11 @@ class EglPlatform final : public Platform {
         throw Error("has no configuration for desktop OpenGL");
     }
 
-    // Drivers may refuse a context because it should tell of resets.
+    // The driver is asked to say when it has reset the device (checkAlive), for which some refuse a context.
     void createContext(EGLConfig config, const ContextOptions& options) {
         std::string reason;
         for (const bool tellsLoss : {true, false})
-            if (!tellsLoss || options.tellsLoss)
-                if (createContext(config, options.debug, tellsLoss, reason)) return;
+            if (createContext(config, options.debug, tellsLoss, reason)) return;
         throw Error("makes no OpenGL context, " + reason);
     }
     bool createContext(EGLConfig config, bool debug, bool tellsLoss, std::string& reason) {

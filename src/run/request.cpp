@@ -27,6 +27,7 @@ Scene readScene(const std::string& file, const RunRequest& request) {
     FieldWatch watch;
     Scene out = readScene(file, watch.baking());
     apply(request, out);
+    checkCounts(out);
     return out;
 }
 

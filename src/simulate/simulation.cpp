@@ -19,7 +19,7 @@ static Tables::Form tableFormOf(Path path) {
 Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions& options)
     : context_(&context),
       plan_(std::move(plan)),
-      choice_(choosePath(plan_, options.path, limitsOf(context.info()))),
+      choice_(choosePath(plan_, options.path, limitsOf(context.info()), options.lanes)),
       tables_(context, plan_, tableFormOf(choice_.path)),
       options_(options),
       timers_(context, options.timing),
@@ -34,20 +34,19 @@ Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions
 std::unique_ptr<ExecutionPath> Simulation::makePath() {
     const auto fused = [&] { return std::make_unique<Fused>(*context_, plan_, tables_, options_); };
     const auto fragments = [&] {
-        if (options_.inPlace || options_.lanes == Lanes::vertex)
-            warnings_.push_back({{},
-                                 "one side of the state, and a lane for each vertex, need compute shaders: "
-                                 "they change nothing here"});
+        if (options_.inPlace)
+            warnings_.push_back(
+                {{}, "one side of the state needs compute shaders: --in-place changes nothing here"});
         return std::make_unique<Fragments>(*context_, plan_, tables_, options_);
     };
     if (choice_.path == Path::fragments) return fragments();
     if (choice_.path == Path::pingPong) {
-        if (options_.inPlace || options_.lanes != Lanes::automatic)
+        if (options_.inPlace)
             warnings_.push_back(
-                {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
+                {{}, "one side of the state is of the fused path: --in-place changes nothing here"});
         return std::make_unique<PingPong>(*context_, plan_, tables_, options_);
     }
-    if (options_.path != Path::automatic) return fused();
+    if (options_.path != Path::automatic || options_.lanes != Lanes::automatic) return fused();
     // Takes what works: two sides, else one, else fragments.
     try {
         return fused();
@@ -113,6 +112,7 @@ bool Simulation::forcesJump() const {
 
 void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
+    context_->checkAlive();
     stopWhereItRanAway(false);
     if (forcesJump()) lastStep_ = 0;
     const double before = lastStep_;

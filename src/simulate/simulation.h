@@ -49,8 +49,9 @@ class Simulation {
     Simulation(const Simulation&) = delete;  // the path refers to the plan and the tables
     Simulation& operator=(const Simulation&) = delete;
 
-    // Advances by parameters.frameTime. Runaway: check's, of the frame before, on a GPU of one up to four
-    // frames before; nothing moves then, and time and frames are those of the frame that left that state.
+    // Advances by parameters.frameTime. gpu::DeviceLost: the driver has reset the device. Runaway: check's,
+    // of the frame before, on a GPU of one up to four frames before; nothing moves then, and time and frames
+    // are those of the frame that left that state.
     void frame();
     // Waits for the last frame. Runaway: it, or one before it, left a state that is not finite or too fast.
     // That stays so until a restart or another state is loaded.

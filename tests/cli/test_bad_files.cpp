@@ -188,4 +188,7 @@ TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
         "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]})");
     CHECK_THAT(refusal({"explain", scene}, "at most 238609294 such molecules fit"),
                Catch::Contains("many.scene.json:1:"));
+    // before anything is measured
+    refusal({"explain", scene, "--error", "1e-3"}, "at most 238609294 such molecules fit");
+    refusal({"measure", scene}, "at most 238609294 such molecules fit");
 }

@@ -305,6 +305,11 @@ TEST_CASE("explain takes the same overrides as run", "[cli]") {
     const JsonValue& group = member(report, "groups").items[0];
     CHECK(member(group, "solver").text == "euler");
     CHECK(member(group, "molecules").number == 2000);
+    CHECK(member(member(group, "lanes"), "gpu").text == "molecule");
+    const Outcome asked = runShoal({"explain", squaresScene(), "--lanes", "vertex"});
+    CHECK_THAT(asked.out, Catch::Contains("on a CPU rasteriser a lane a vertex, as asked"));
+    refusal({"explain", squaresScene(), "--lanes", "vertex", "--solver", "xpbd", "--shader"},
+            "leave out --lanes vertex");
 }
 
 TEST_CASE("a count also says how many places there are where molecules are born", "[cli]") {

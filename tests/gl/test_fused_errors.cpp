@@ -196,7 +196,7 @@ TEST_CASE("the largest molecule that a workgroup holds runs, and one more is ref
     molecule.vertices.emplace_back();
     scene.groups[0].molecule = molecule;
     CHECK_THAT(messageOf([&] { Simulation(testContext(), compile(scene), {.path = Path::fused}); }),
-               Catch::Contains(concat("has ", most + 1, " vertices; the fused path holds at most ", most)));
+               Catch::Contains(concat("has ", most + 1, " vertices; a workgroup holds at most ", most)));
     CHECK(Simulation(testContext(), compile(scene)).path().path == Path::pingPong);
 
     scene.groups[0].molecule.vertices.resize(FusedLimits::laneVertices + 1);

@@ -12,6 +12,7 @@
 #include "gpu/gl.h"
 #include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/message_of.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -269,6 +270,19 @@ TEST_CASE("the state before the last frame is exactly what it was", "[watchdog]"
         CHECK(releases > 50);
         CHECK(moves > 500);
     }
+}
+
+TEST_CASE("a device that is lost ends a run in one line", "[watchdog]") {
+    if (!testContext().info().atLeast(4, 5)) return;
+    Simulation simulation = make(manyQuads(10), {.path = testPath()});
+    simulation.frame();
+    const auto before = __glewGetGraphicsResetStatus;
+    __glewGetGraphicsResetStatus = []() -> GLenum { return GL_GUILTY_CONTEXT_RESET; };
+    CHECK(messageOf([&] { simulation.frame(); }) ==
+          "the device was lost: the driver reset it, for what this program did");
+    __glewGetGraphicsResetStatus = before;
+    CHECK(simulation.frames() == 1);
+    CHECK_NOTHROW(simulation.frame());
 }
 
 TEST_CASE("a run that blows up is stopped before it is lost", "[watchdog]") {

@@ -12,7 +12,7 @@ KernelCost costOfBench(bench::BenchCase one, const Molecule& molecule, Lanes lan
     one.count = 3;
     const Scene scene = benchScene(one, molecule);
     const Plan plan = compile(scene);
-    return kernelCosts(scene, plan, {Path::fused, ""}, lanes, {})[0];
+    return kernelCosts(scene, plan, {Path::fused, "", lanes}, {})[0];
 }
 
 }  // namespace

@@ -136,6 +136,22 @@ TEST_CASE("what dead processes left is swept, and what is written stays", "[file
     CHECK(readFile(folder / std::string(250, 'n')) == "long");
 }
 
+TEST_CASE("folders that were made for a file that is not kept go with it", "[file]") {
+    const test::Scratch folder;
+    checkWritable(folder / "a/b/c.json");
+    CHECK(messageOf([&] { checkWritable(folder / "trailing/"); }).find("is a folder") != std::string::npos);
+    CHECK(entries(folder.folder()) == 0);
+    std::filesystem::create_directory(folder / "a");
+    {
+        const PartFile unfinished(folder / "a/b/c.json");
+        CHECK(entries(folder / "a/b") == 1);
+    }
+    CHECK(entries(folder / "a") == 0);  // which stood before
+    CHECK(std::filesystem::exists(folder / "a"));
+    writeFile(folder / "a/b/c.json", std::string_view("x"));
+    CHECK(readFile(folder / "a/b/c.json") == "x");
+}
+
 TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
     const test::Scratch folder;
     writeFile(folder / "kept", std::string_view("old"));

@@ -141,6 +141,21 @@ TEST_CASE("implicit solvers are refused where a molecule does not fit a lane, an
                Catch::Contains("bdf2-xpbd") && Catch::Contains("needs the fused path"));
     CHECK_THAT(messageOf([&] { chooseLanes(plan, plan.groups[0], Lanes::vertex, {}); }),
                Catch::Contains("in one lane: leave out --lanes vertex"));
+    // lanes that are demanded are taken or refused, on whatever path
+    CHECK_THAT(messageOf([&] { choosePath(plan, Path::automatic, {}, Lanes::vertex); }),
+               Catch::Contains("in one lane: leave out --lanes vertex"));
+    const Plan soft = compile(sceneOf(test::leaf(10, 1), SolverKind::euler));
+    CHECK(choosePath(soft, Path::automatic, {}, Lanes::vertex).lanes == Lanes::vertex);
+    CHECK_THAT(messageOf([&] { choosePath(soft, Path::pingPong, {}, Lanes::vertex); }),
+               Catch::Contains("lanes are of the fused path"));
+    CHECK_THAT(messageOf([&] { choosePath(soft, Path::fragments, {}, Lanes::vertex); }),
+               Catch::Contains("a lane a vertex needs compute shaders"));
+    PathLimits old;
+    old.compute = false;
+    old.version = "3.3";
+    CHECK_THAT(messageOf([&] { choosePath(soft, Path::automatic, old, Lanes::vertex); }),
+               Catch::Contains("OpenGL 4.3; this context has 3.3"));
+    CHECK(choosePath(soft, Path::automatic, old, Lanes::molecule).path == Path::fragments);
     Molecule chain;
     for (int i = 0; i < 65; ++i)
         chain.vertices.push_back({{0.1 * i, 0, 0}, {}, 1, false});
