@@ -27,25 +27,18 @@ Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions
     if (plan_.contact.settings.rest && choice_.path != Path::fused)
         warnings_.push_back(
             {{}, "molecules come to rest in compute shaders alone: \"rest\" changes nothing here"});
+    if (options.inPlace && choice_.path != Path::fused)
+        warnings_.push_back({{}, "one side of the state needs compute shaders: it changes nothing here"});
     parameters = parametersOf(plan_);
     restart();
 }
 
 std::unique_ptr<ExecutionPath> Simulation::makePath() {
     const auto fused = [&] { return std::make_unique<Fused>(*context_, plan_, tables_, options_); };
-    const auto fragments = [&] {
-        if (options_.inPlace)
-            warnings_.push_back(
-                {{}, "one side of the state needs compute shaders: --in-place changes nothing here"});
-        return std::make_unique<Fragments>(*context_, plan_, tables_, options_);
-    };
+    const auto fragments = [&] { return std::make_unique<Fragments>(*context_, plan_, tables_, options_); };
     if (choice_.path == Path::fragments) return fragments();
-    if (choice_.path == Path::pingPong) {
-        if (options_.inPlace)
-            warnings_.push_back(
-                {{}, "one side of the state is of the fused path: --in-place changes nothing here"});
+    if (choice_.path == Path::pingPong)
         return std::make_unique<PingPong>(*context_, plan_, tables_, options_);
-    }
     if (options_.path != Path::automatic || options_.lanes != Lanes::automatic) return fused();
     // Takes what works: two sides, else one, else fragments.
     try {
