@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <set>
 
 namespace shoal {
 
@@ -273,14 +274,27 @@ bool allOf(Kind kind, const JsonValue& a, const JsonValue& b, const JsonValue& c
     return a.kind == kind && b.kind == kind && c.kind == kind;
 }
 
-bool elementwise(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs) {
-    if (!allOf(Kind::array, base, mine, theirs)) return false;
-    const auto objects = [](const JsonValue& array) {
-        return std::all_of(array.items.begin(), array.items.end(),
-                           [](const JsonValue& item) { return item.kind == Kind::object; });
-    };
-    return base.items.size() == mine.items.size() && base.items.size() == theirs.items.size() &&
-           objects(base) && objects(mine) && objects(theirs);
+bool isOfObjects(const JsonValue& array) {
+    return std::all_of(array.items.begin(), array.items.end(),
+                       [](const JsonValue& item) { return item.kind == Kind::object; });
+}
+
+// The names of an array's objects; fewer where some have none of their own.
+std::set<std::string> namesOf(const JsonValue& array) {
+    std::set<std::string> out;
+    for (const JsonValue& item : array.items)
+        if (const JsonValue* name = item.find("name")) out.insert(name->text);
+    return out;
+}
+
+bool isNamed(const JsonValue& array) {
+    return namesOf(array).size() == array.items.size();
+}
+
+const JsonValue* named(const JsonValue& array, const std::string& name) {
+    for (const JsonValue& item : array.items)
+        if (item.find("name")->text == name) return &item;
+    return nullptr;
 }
 
 class Merger {
@@ -290,7 +304,12 @@ class Merger {
     JsonValue merge(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs,
                     const std::string& path) {
         if (allOf(Kind::object, base, mine, theirs)) return mergeObjects(base, mine, theirs, path);
-        if (!elementwise(base, mine, theirs)) return *choose(&base, &mine, &theirs, path);
+        const bool objects = allOf(Kind::array, base, mine, theirs) && isOfObjects(base) &&
+                             isOfObjects(mine) && isOfObjects(theirs);
+        if (objects && isNamed(base) && isNamed(mine) && isNamed(theirs))
+            return mergeNamed(base, mine, theirs, path);
+        if (!objects || base.items.size() != mine.items.size() || base.items.size() != theirs.items.size())
+            return *choose(&base, &mine, &theirs, path);
         JsonValue out = JsonValue::makeArray();
         for (size_t i = 0; i < base.items.size(); ++i)
             out.items.push_back(
@@ -308,24 +327,39 @@ class Merger {
         return prefer_ == Prefer::mine ? mine : theirs;
     }
 
-    // In the order of `theirs`, which is on disk.
+    // A member or element; nothing: it is not there.
+    std::optional<JsonValue> mergeOne(const JsonValue* base, const JsonValue* mine, const JsonValue* theirs,
+                                      const std::string& path) {
+        if (base && mine && theirs) return merge(*base, *mine, *theirs, path);
+        const JsonValue* chosen = choose(base, mine, theirs, path);
+        return chosen ? std::optional(*chosen) : std::nullopt;
+    }
+
+    // Both in the order of `theirs`, which is on disk.
     JsonValue mergeObjects(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs,
                            const std::string& path) {
         JsonValue out = JsonValue::makeObject();
-        const auto add = [&](const std::string& key) {
-            if (out.find(key)) return;
-            const JsonValue *b = base.find(key), *m = mine.find(key), *t = theirs.find(key);
-            const std::string inner = path + "." + key;
-            if (b && m && t) {
-                out.add(key, merge(*b, *m, *t, inner));
-            } else if (const JsonValue* chosen = choose(b, m, t, inner)) {
-                out.add(key, *chosen);
+        for (const JsonValue* one : {&theirs, &mine})
+            for (const auto& [key, value] : one->members) {
+                if (out.find(key)) continue;
+                const auto both =
+                    mergeOne(base.find(key), mine.find(key), theirs.find(key), path + "." + key);
+                if (both) out.add(key, *both);
             }
-        };
-        for (const auto& [key, value] : theirs.members)
-            add(key);
-        for (const auto& [key, value] : mine.members)
-            add(key);
+        return out;
+    }
+    JsonValue mergeNamed(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs,
+                         const std::string& path) {
+        JsonValue out = JsonValue::makeArray();
+        std::set<std::string> done;
+        for (const JsonValue* one : {&theirs, &mine})
+            for (const JsonValue& item : one->items) {
+                const std::string& name = item.find("name")->text;
+                if (!done.insert(name).second) continue;
+                const auto both = mergeOne(named(base, name), named(mine, name), named(theirs, name),
+                                           concat(path, "[\"", name, "\"]"));
+                if (both) out.items.push_back(*both);
+            }
         return out;
     }
 

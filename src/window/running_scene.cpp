@@ -217,13 +217,12 @@ Scene RunningScene::read(const std::string& text) const {
     return out;
 }
 
-// Builds `fresh` with other groups in its place. Without `keepsChoices` these give way to what it says.
-std::vector<std::string> RunningScene::replace(Scene fresh, std::vector<Group> groups, bool keepsChoices) {
+// Builds `fresh` in its place. Without `keepsChoices` the choices give way to what it says.
+std::vector<std::string> RunningScene::replace(Scene fresh, bool keepsChoices) {
     const Choices before = choices;
     if (!keepsChoices) choices = {};
     try {
         Scene next = fresh;
-        next.groups = std::move(groups);
         applyChoices(next, fresh);
         std::vector<std::string> restarted = build(std::move(next), true);
         original_ = std::move(fresh);
@@ -236,17 +235,10 @@ std::vector<std::string> RunningScene::replace(Scene fresh, std::vector<Group> g
 
 std::vector<std::string> RunningScene::take(const std::string& text) {
     Scene fresh = read(text);
-    std::vector<Group> groups = fresh.groups;
     const bool keepsChoices = changedChoices(fresh).empty();
-    std::vector<std::string> restarted = replace(std::move(fresh), std::move(groups), keepsChoices);
+    std::vector<std::string> restarted = replace(std::move(fresh), keepsChoices);
     text_ = text;
     return restarted;
-}
-
-// They are of before the file changed: going back to one would take the file's change back as well.
-void RunningScene::forgetTexts() {
-    undo_.clear();
-    redo_.clear();
 }
 
 // Takes a text and adds the one that it leaves behind to `passed`.
@@ -311,41 +303,32 @@ std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const
     return out;
 }
 
-// The file's text with what change() did and was not saved.
-RunningScene::Reloaded RunningScene::mergeWhole(const std::string& text, std::optional<Prefer> prefer) {
-    Reloaded out;
-    if (text == saved_) {  // another file has changed that the scene names
-        out.restarted = take(this->text());
-        return out;
-    }
-    const JsonValue theirs = parseJson(text, original_.file);
-    const JsonValue both = merged(parseJson(saved_, original_.file), json(), theirs,
-                                  prefer.value_or(Prefer::mine), "$", out.conflicts);
-    if (!out.conflicts.empty() && !prefer) return out;
-    std::vector<TextChange> changes;
-    addChanges(text, theirs, theirs, both, changes);
-    out.restarted = take(withChanges(text, std::move(changes)));
-    saved_ = text;
-    forgetTexts();
-    return out;
-}
-
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
-    const std::string text = readFile(original_.file);
-    if (text_ != saved_) return mergeWhole(text, prefer);
-    const bool another = text != saved_;
-    Scene theirs = read(text);
-    MergedEdits merged = mergeEdits(original_, scene, theirs, text, prefer.value_or(Prefer::mine));
-    const std::vector<std::string> changed = changedChoices(theirs);
-    Reloaded out{std::move(merged.conflicts), {}};
-    out.conflicts.insert(out.conflicts.end(), changed.begin(), changed.end());
+    const std::string there = readFile(original_.file);
+    const bool changed = there != saved_;  // else another file has, which the scene names
+    Reloaded out;
+    std::string both = text();
+    if (changed) {
+        const JsonValue theirs = parseJson(there, original_.file);
+        const JsonValue all = merged(parseJson(saved_, original_.file), json(), theirs,
+                                     prefer.value_or(Prefer::mine), "$", out.conflicts);
+        std::vector<TextChange> changes;
+        addChanges(there, theirs, theirs, all, changes);
+        both = withChanges(there, std::move(changes));
+    }
+    Scene fresh = read(both);
+    const std::vector<std::string> choicesToo = changedChoices(fresh);
+    out.conflicts.insert(out.conflicts.end(), choicesToo.begin(), choicesToo.end());
     if (!out.conflicts.empty() && !prefer) return out;
-    if (prefer == Prefer::mine && !merged.possible) return out;  // nowhere to put them: what runs, runs on
 
-    const bool keepsChoices = prefer != Prefer::theirs || changed.empty();
-    out.restarted = replace(std::move(theirs), std::move(merged.groups), keepsChoices);
-    text_ = saved_ = text;
-    if (another) forgetTexts();
+    out.restarted = replace(std::move(fresh), prefer != Prefer::theirs || choicesToo.empty());
+    if (changed) {  // the texts are of before: going back to one would take the file's change back as well
+        undo_.clear();
+        redo_.clear();
+        saved_ = text_ = there;
+    }
+    if (both != text_) undo_.push_back(text_);
+    text_ = both;
     return out;
 }
 

@@ -87,11 +87,9 @@ class RunningScene {
     bool edited() const;       // `scene` is not as text_ says
     Scene read(const std::string& text) const;
     // These return the groups that begin anew.
-    std::vector<std::string> replace(Scene fresh, std::vector<Group> groups, bool keepsChoices);
+    std::vector<std::string> replace(Scene fresh, bool keepsChoices);
     std::vector<std::string> take(const std::string& text);
     void go(const std::string& text, std::vector<std::string>& passed);
-    void forgetTexts();
-    Reloaded mergeWhole(const std::string& text, std::optional<Prefer> prefer);
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);

@@ -1,7 +1,6 @@
 // A file that changed on disk while edits of it are not saved: both are kept, or the conflict is said.
 #include "core/description.h"
 #include "core/json_edit.h"
-#include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "simulate/carry_over.h"
 #include "support/catch.h"
@@ -9,35 +8,6 @@
 
 using namespace shoal;
 using namespace shoal::test;
-
-namespace {
-
-std::string scene(const std::string& rate, const std::string& span, const std::string& name = "sparks",
-                  const std::string& gravity = "-9.81") {
-    return concat(R"({
-  "format": "shoal-scene-1", "comment": "kept", "gravity": [0, )",
-                  gravity, R"(, 0],
-  "groups": [{"name": ")",
-                  name, R"(", "molecule": "blade.json",
-    "emitters": [{"from": "point", "rate": )",
-                  rate, R"(}], "life": {"capacity": 500, "span": )", span, "}}]\n}\n");
-}
-
-struct Three {
-    Scene before, mine, theirs;
-    std::string text;
-};
-
-Three three(const Scratch& scratch, const std::string& theirs) {
-    const std::string file = writeSmallScene(scratch, scene("100", "2"));
-    Three out;
-    out.before = out.mine = parseScene(scene("100", "2"), file);
-    out.text = theirs;
-    out.theirs = parseScene(theirs, file);
-    return out;
-}
-
-}  // namespace
 
 TEST_CASE("JSON changed in two ways is put together value by value", "[merge]") {
     const auto parse = [](const char* text) { return parseJson(text, "test"); };
@@ -62,41 +32,17 @@ TEST_CASE("JSON changed in two ways is put together value by value", "[merge]") 
     both("{}", R"({"a": 2})", R"({"a": 3})", R"({"a": 3})", {"$.a"}, Prefer::theirs);
     // arrays of another length are one value
     both(R"({"c": [{"x": 1}]})", R"({"c": [{"x": 2}]})", R"({"c": []})", R"({"c": [{"x": 2}]})", {"$.c"});
-}
-
-TEST_CASE("unsaved edits and a file that changed elsewhere are both kept", "[merge]") {
-    const Scratch scratch;
-    Three t = three(scratch, scene("100", "3", "sparks", "-1.62"));
-    t.mine.groups[0].life->emitters[0].rate = 250;
-    const MergedEdits merged = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
-    CHECK(merged.conflicts.empty());
-    CHECK(merged.possible);
-    REQUIRE(merged.groups.size() == 1);
-    CHECK(merged.groups[0].life->emitters[0].rate == 250);
-    CHECK(merged.groups[0].life->life == glm::dvec2(3));
-    CHECK(t.theirs.gravity.y == -1.62);
-}
-
-TEST_CASE("what was edited and changed on disk, too, is a conflict", "[merge]") {
-    const Scratch scratch;
-    Three t = three(scratch, scene("400", "3"));
-    t.mine.groups[0].life->emitters[0].rate = 250;
-    const MergedEdits mine = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
-    CHECK(mine.conflicts == std::vector<std::string>{"$.groups[0].emitters[0].rate"});
-    CHECK(mine.groups[0].life->emitters[0].rate == 250);
-    const MergedEdits theirs = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::theirs);
-    CHECK(theirs.groups[0].life->emitters[0].rate == 400);
-    CHECK(theirs.groups[0].life->life == glm::dvec2(3));
-}
-
-TEST_CASE("edits of a group that is gone from the file are not dropped in silence", "[merge]") {
-    const Scratch scratch;
-    Three t = three(scratch, scene("100", "2", "flames"));
-    CHECK(mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine).conflicts.empty());
-    t.mine.groups[0].life->emitters[0].rate = 250;
-    const MergedEdits merged = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
-    CHECK(!merged.possible);
-    CHECK(merged.conflicts == std::vector<std::string>{"the group \"sparks\""});
+    // but of named elements, which are found again wherever they stand
+    const char* named = R"({"c": [{"name": "a", "x": 1}, {"name": "b", "x": 1}]})";
+    both(named, R"({"c": [{"name": "a", "x": 2}, {"name": "b", "x": 1}]})",
+         R"({"c": [{"name": "new"}, {"name": "b", "x": 3}, {"name": "a", "x": 1, "y": 4}]})",
+         R"({"c": [{"name": "new"}, {"name": "b", "x": 3}, {"name": "a", "x": 2, "y": 4}]})", {});
+    both(named, R"({"c": [{"name": "a", "x": 2}, {"name": "b", "x": 1}, {"name": "mine"}]})",
+         R"({"c": [{"name": "b", "x": 1}]})",
+         R"({"c": [{"name": "b", "x": 1}, {"name": "a", "x": 2}, {"name": "mine"}]})", {"$.c[\"a\"]"});
+    both(named, R"({"c": [{"name": "a", "x": 2}, {"name": "b", "x": 1}]})",
+         R"({"c": [{"name": "a", "x": 3}, {"name": "b", "x": 1}]})",
+         R"({"c": [{"name": "a", "x": 3}, {"name": "b", "x": 1}]})", {"$.c[\"a\"].x"}, Prefer::theirs);
 }
 
 TEST_CASE("a school that is written reads back the same", "[merge]") {

@@ -53,14 +53,6 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
     return out;
 }
 
-// The group that was read as `groups[g]`, in another reading of its file: by name, which need not be its own.
-std::optional<size_t> sameGroup(const std::vector<Group>& groups, size_t g, const std::vector<Group>& among) {
-    if (g < among.size() && among[g].name == groups[g].name) return g;
-    for (size_t other = 0; other < among.size(); ++other)
-        if (among[other].name == groups[g].name) return other;
-    return {};
-}
-
 }  // namespace
 
 void copyEdited(const Group& from, Group& to) {
@@ -81,36 +73,6 @@ std::string withEdits(const std::string& text, const Scene& before, const Scene&
     if (changes.empty()) return text;
     std::string out = withChanges(text, std::move(changes));
     readEdited(out, after);
-    return out;
-}
-
-MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& theirs, const std::string& text,
-                       Prefer prefer) {
-    MergedEdits out;
-    const JsonValue root = parseJson(text, theirs.file);
-    const JsonValue& groups = groupsOf(root, theirs);
-    std::vector<TextChange> changes;
-    std::vector<size_t> edited;  // groups of `theirs`
-    for (size_t g = 0; g < before.groups.size(); ++g) {
-        const JsonValue base = editable(before, before.groups[g]), mine = editable(after, after.groups[g]);
-        if (sameJson(base, mine)) continue;
-        const std::optional<size_t> there = sameGroup(before.groups, g, theirs.groups);
-        if (!there) {
-            out.conflicts.push_back(concat("the group \"", before.groups[g].name, "\""));
-            out.possible = false;
-            continue;
-        }
-        const JsonValue on = editable(theirs, theirs.groups[*there]);
-        const JsonValue both =
-            merged(base, mine, on, prefer, concat("$.groups[", *there, "]"), out.conflicts);
-        addChanges(text, groups.items[*there], on, both, changes);
-        edited.push_back(*there);
-    }
-    out.groups = theirs.groups;
-    if (changes.empty()) return out;
-    const std::vector<Group> read = readEdited(withChanges(text, std::move(changes)), theirs);
-    for (const size_t g : edited)
-        copyEdited(read[g], out.groups[g]);
     return out;
 }
 

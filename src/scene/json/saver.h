@@ -21,14 +21,4 @@ void copyEdited(const Group& from, Group& to);
 // Whether saving would change a file.
 bool differ(const Scene& before, const Scene& after);
 
-// Holds the outcome of merging unsaved edits into a file that changed since it was read.
-struct MergedEdits {
-    std::vector<Group> groups;           // of `theirs`, with the edits
-    std::vector<std::string> conflicts;  // paths of what both changed, each its own way, or what is gone
-    bool possible = true;                // false: a group that was edited is not there any more
-};
-// `text`: of the file as it is now, which was read as `theirs`. Error: the two together do not read back.
-MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& theirs, const std::string& text,
-                       Prefer prefer);
-
 }  // namespace shoal
