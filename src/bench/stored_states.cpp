@@ -188,7 +188,7 @@ StoredState recordState(const std::string& name, const Scene& scene, int frames,
     Simulation simulation(*device.context, compile(scene), {.drawn = false});
     StoredState out{name, frames, {}};
     std::vector<std::vector<double>> moved;  // of each group's statistics, then of its vertices
-    const int runs = 1 + shiftedRuns + int(!simulation.plan().noiseTiles.empty());
+    const int runs = 1 + shiftedRuns + int(!simulation.plan().fields.noiseTiles.empty());
     for (int run = 0; run < runs; ++run) {
         std::mt19937 random(static_cast<unsigned>(run));
         if (run > shiftedRuns) simulation.parameters.wind *= 1 + windShift;

@@ -117,8 +117,8 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
     if (needs.collide) {
         const ReadingCost found = costOfAll(scene.colliders);
         // clusters of a table that are too far away are passed over
-        const double looked = plan.colliderTurns > 0
-                                  ? std::min(1.0, double(plan.colliderTurns) / double(plan.colliderCount))
+        const double looked = plan.colliders.turns > 0
+                                  ? std::min(1.0, double(plan.colliders.turns) / double(plan.colliderCount))
                                   : 1;
         out.operations += substeps * vertices * looked * found.operations;
         out.fetches += substeps * vertices * looked * found.fetches;

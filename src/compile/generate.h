@@ -21,8 +21,8 @@ struct Generated {
 };
 
 struct GeneratedFields : Generated {
-    std::vector<size_t> weights;  // of each field: the parameter whose w is its weight
-    std::vector<ClockSlot> clocks;
+    std::vector<size_t> weights;    // of each field: the parameter whose w is its weight
+    std::vector<ClockSlot> clocks;  // their parameters are renewed every frame
     std::vector<NoiseTile> noiseTiles;
 };
 
@@ -40,9 +40,9 @@ constexpr size_t maxParameters = 200;
 struct GeneratedColliders : Generated {
     // Holds, for each collider, the index of the parameter whose x is its restitution, y its friction.
     std::vector<size_t> materials;
-    std::vector<MovingCollider> moving;
-    std::optional<size_t> fastestSlot;  // setPoses
-    size_t turns = 0;                   // of loops, about, for a look at all (compile/collider_table.h)
+    std::vector<MovingCollider> moving;  // their parameters are renewed every frame
+    std::optional<size_t> fastestSlot;   // setPoses
+    size_t turns = 0;                    // of loops, about, for a look at all (compile/collider_table.h)
 };
 
 // Whether a vertex has contact with all of them at once, with JOINT_CONTACT: not where there is only one

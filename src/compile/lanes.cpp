@@ -169,10 +169,10 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
 
 int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns) {
     if (plan.contact.any()) return std::min(plan.contact.steps, substeps);
-    if (plan.colliderTurns == 0) return 1;
+    if (plan.colliders.turns == 0) return 1;
     constexpr double looks = 3;      // at all colliders, of a vertex and substep
     constexpr double marches = 300;  // turns of the way among those that are near, seldom more
-    const double turns = (looks * double(plan.colliderTurns) + marches) * vertices * substeps;
+    const double turns = (looks * double(plan.colliders.turns) + marches) * vertices * substeps;
     return int(std::clamp(std::ceil(turns / (0.9 * mostTurns)), 1.0, double(substeps)));
 }
 

@@ -96,7 +96,7 @@ void checkUniforms(const Plan& plan, const PathLimits& limits) {
     for (const GroupPlan& group : plan.groups)
         own = std::max(own, group.forces.parameterCount +
                                 (countsMuscles(group.needs) ? muscleAngles(group.muscles, 0).size() : 0));
-    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameterCount + own) + 64;
+    const size_t uniforms = 4 * (plan.fields.parameters.size() + plan.colliders.parameters.size() + own) + 64;
     if (uniforms > size_t(limits.maxUniformComponents))
         throw Error(concat("fields, forces, colliders and muscles take ", uniforms,
                            " numbers of uniforms; a shader holds ", limits.maxUniformComponents,

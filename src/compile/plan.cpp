@@ -318,7 +318,7 @@ bool Plan::hasLife() const {
 
 size_t Plan::tableBytes() const {
     size_t tiles = 0;
-    for (const NoiseTile& tile : noiseTiles)
+    for (const NoiseTile& tile : fields.noiseTiles)
         tiles += tile.bytes();
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4) + tiles;
 }
@@ -409,15 +409,13 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
-    GeneratedFields fields;
-    GeneratedColliders colliders;
     if (any(&Needs::fields)) {
-        fields = generateFields(scene.fields, plan.samples);
-        plan.grids = describeGrids(scene.fields, fields.noiseTiles);
+        plan.fields = generateFields(scene.fields, plan.samples);
+        plan.grids = describeGrids(scene.fields, plan.fields.noiseTiles);
     }
     if (any(&Needs::collide) || any(&Needs::avoids))
-        colliders = generateColliders(scene.colliders, plan.samples);
-    if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)
+        plan.colliders = generateColliders(scene.colliders, plan.samples);
+    if (plan.fields.parameters.size() > maxParameters || plan.colliders.parameters.size() > maxParameters)
         throw Error(
             Location{scene.file, 0, 0, {}},
             concat("the scene has ", scene.fields.size(), " fields and ", scene.colliders.size(),
@@ -428,21 +426,11 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                 group.location,
                 concat("the forces on \"", group.name, "\" take ", group.forces.parameterCount,
                        " 4-vectors of uniforms, more than the ", maxForceParameters, " that they may"));
-    plan.fieldSource = std::move(fields.source);
-    plan.fieldParameters = std::move(fields.parameters);
-    plan.fieldWeights = std::move(fields.weights);
-    plan.fieldClocks = std::move(fields.clocks);
-    plan.noiseTiles = std::move(fields.noiseTiles);
-    plan.collideSource = std::move(colliders.source);
-    plan.colliderTurns = colliders.turns;
-    plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide || group.needs.avoids)
-            group.colliderParameters = parametersOf(scene, group, colliders);
+            group.colliderParameters = parametersOf(scene, group, plan.colliders);
     planLives(scene, plan);
     warnOfBooks(plan);
-    plan.movingColliders = std::move(colliders.moving);
-    plan.fastestSlot = colliders.fastestSlot;
     plan.sampleRows = tableRows(plan.samples);
     return plan;
 }

@@ -26,13 +26,12 @@
 
 #include <glm/glm.hpp>
 
-#include "compile/clocks.h"
 #include "compile/contact_plan.h"
+#include "compile/generate.h"
 #include "compile/generate_forces.h"
 #include "compile/group_state.h"
 #include "compile/kernel.h"
 #include "compile/life_plan.h"
-#include "compile/moving_colliders.h"
 #include "compile/school_plan.h"
 #include "scene/scene.h"
 
@@ -72,8 +71,8 @@ struct GroupPlan {
     std::optional<LifePlan> life;  // needs.life
     GroupState start;
     GroupConstants constants;
-    std::vector<glm::vec4> colliderParameters;  // with the group's restitution and friction; 0 or as many as
-                                                // Plan::colliderParameterCount
+    std::vector<glm::vec4> colliderParameters;  // as of Plan::colliders, with the group's restitution and
+                                                // friction; or none
     GroupForces forces;
     KernelText kernel;                     // of the fused path
     std::vector<glm::vec4> springNumbers;  // needs.liveSprings: see compile/kernel.h
@@ -120,22 +119,14 @@ struct Plan {
     // Fields and colliders become straight-line GLSL that reads its numbers from uniform arrays, so that
     // changing a number never compiles. Samples (grids, height fields) share one texture of 4-vectors, read
     // by index like the topology.
-    std::string fieldSource;    // generated/fields.glsl
-    std::string collideSource;  // generated/colliders.glsl
-    std::vector<glm::vec4> fieldParameters;
-    std::vector<size_t> fieldWeights;             // of each field: the parameter whose w is its weight
-    std::vector<ClockSlot> fieldClocks;           // their parameters are renewed every frame
-    size_t colliderParameterCount = 0;            // of each group that collides
-    std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
-    std::optional<size_t> fastestSlot;            // setPoses
+    GeneratedFields fields;        // generated/fields.glsl
+    GeneratedColliders colliders;  // generated/colliders.glsl; the parameters are those of each group
     size_t fieldCount = 0, colliderCount = 0;
-    size_t colliderTurns = 0;   // of loops, about, for a look at all (compile/collider_table.h)
     bool jointContact = false;  // colliders answer together (compile/generate.h)
     bool longFields = false;    // computed noise, grids or many waves: too much text to repeat
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
-    std::vector<NoiseTile> noiseTiles;  // that fields read
-    std::vector<std::string> grids;     // what each field's grid and each tile takes, for people
+    std::vector<std::string> grids;  // what each field's grid and each tile takes, for people
 
     std::vector<Warning> warnings;
 

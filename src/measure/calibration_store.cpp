@@ -130,9 +130,9 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
           double(options.molecules), double(options.substeps.value_or(0))})
         hash.add(number);
     hash.add(plan.topology);
-    hash.add(plan.fieldSource);
-    hash.add(plan.collideSource);
-    hash.add(plan.fieldParameters);
+    hash.add(plan.fields.source);
+    hash.add(plan.colliders.source);
+    hash.add(plan.fields.parameters);
     for (const GroupPlan& group : plan.groups)
         hash.add(group.colliderParameters);
     hash.add(plan.samples);

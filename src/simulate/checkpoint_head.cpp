@@ -56,8 +56,8 @@ uint64_t forcesAt(const Plan& plan, double time) {
     sum.add(plan.gravity.z);
     add(plan.topology);
     add(plan.samples);
-    add(plan.fieldSource);
-    add(plan.collideSource);
+    add(plan.fields.source);
+    add(plan.colliders.source);
     add(fieldParameters(plan, frame));
     for (const GroupPlan& group : plan.groups) {
         for (const double value :

@@ -255,7 +255,7 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
     const int ofLane = verticesOfLane(group, options);
     const auto vertices = size_t(ofLane);
     const bool software = options.software;
-    const bool isLong = plan.longFields || (!software && !plan.noiseTiles.empty());
+    const bool isLong = plan.longFields || (!software && !plan.fields.noiseTiles.empty());
     return {ofLane, Form::writeOut,
             form((isLong && vertices > (software ? 1 : 8)) ||
                  (!software && vertices * (plan.fieldCount + group.forces.pulls.size()) > longest)),
@@ -314,10 +314,10 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/sweeps.glsl", group.kernel.sweeps},
                      {"generated/factors.glsl", factorsText(group, options)},
                      {"generated/packing.glsl", packingText(group, options)},
-                     {"generated/fields.glsl", plan.fieldSource},
+                     {"generated/fields.glsl", plan.fields.source},
                      {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
                      {"generated/scene_forces.glsl", group.forces.source},
-                     {"generated/colliders.glsl", plan.collideSource}};
+                     {"generated/colliders.glsl", plan.colliders.source}};
     if (options.targets && born)
         out.generated["generated/newborn.frag"] =
             newbornText(targetsOf(storedByDraws(group, options.work), options));
@@ -377,7 +377,7 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
         program.set("givenMuscleAngles", std::span<const glm::vec4>(muscleAngles(group.muscles, frame.time)));
     if (group.forces.any())
         program.set("givenForceParameters", std::span<const glm::vec4>(forceParameters(plan, group, frame)));
-    if (group.needs.collide && !plan.movingColliders.empty())
+    if (group.needs.collide && !plan.colliders.moving.empty())
         program.set("givenColliderParameters",
                     std::span<const glm::vec4>(colliderParameters(plan, group, frame)));
 }

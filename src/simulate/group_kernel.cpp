@@ -46,7 +46,7 @@ void GroupKernel::makeStep() {
     step_ = &make(options_);
     step_->use();
     if (group().needs.fields)
-        step_->set("givenFieldParameters", std::span<const glm::vec4>(source_.plan->fieldParameters));
+        step_->set("givenFieldParameters", std::span<const glm::vec4>(source_.plan->fields.parameters));
     if (group().needs.collide)
         step_->set("givenColliderParameters", std::span<const glm::vec4>(group().colliderParameters));
 }

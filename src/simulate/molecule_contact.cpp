@@ -222,7 +222,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group) {
         options.label = concat("contact ", file, " of ", plan.name);
         options.defines = common;
         if (define) options.defines.emplace_back(define);
-        options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
+        options.generated = {{"generated/colliders.glsl", plan_->colliders.source}};
         return Program(*context_, options);
     };
     GroupPrograms& out = groups_.emplace_back();

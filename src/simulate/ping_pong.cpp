@@ -113,9 +113,9 @@ PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables
         if (plan.contact.remembers() && plan.contact.of(pass.group))
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
-        wanted.generated = {{"generated/fields.glsl", plan.fieldSource},
+        wanted.generated = {{"generated/fields.glsl", plan.fields.source},
                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
-                            {"generated/colliders.glsl", plan.collideSource}};
+                            {"generated/colliders.glsl", plan.colliders.source}};
         wanted.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
         program = &made_.get(context, wanted, setOnceFor(plan.groups[pass.group]));
         program->use();
@@ -235,7 +235,7 @@ void PingPong::setParameters(const Program& program, const GroupPlan& group, con
     if (program.uses("forceParameters"))
         program.set("forceParameters",
                     std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
-    if (program.uses("colliderParameters") && !plan_->movingColliders.empty())
+    if (program.uses("colliderParameters") && !plan_->colliders.moving.empty())
         program.set("colliderParameters",
                     std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
 }
@@ -361,7 +361,7 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
     if (group.solver == SolverKind::rk4)  // that the last stage has written
         program.texture("sumAccelerations", 11, state.sumAcceleration[1]);
-    if (!plan_->movingColliders.empty())
+    if (!plan_->colliders.moving.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
     setParameters(program, group, step);
     drawMotion(group, index);

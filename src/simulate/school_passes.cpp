@@ -76,7 +76,7 @@ void SchoolPasses::makeSteer(const SchoolMember& member) {
     options.defines.push_back(concat("TARGETS ", member.targetGrids.size()));
     options.defines.push_back(concat("CLOCK_PERIOD float(", clockPeriodOf(group), ")"));
     if (group.needs.avoids) options.defines.push_back("WALLS");
-    options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
+    options.generated = {{"generated/colliders.glsl", plan_->colliders.source}};
     members_.push_back({&programs_.get(*context_, options), member.school});
 }
 

@@ -74,17 +74,17 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
 }
 
 std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame) {
-    std::vector<glm::vec4> out = plan.fieldParameters;
+    std::vector<glm::vec4> out = plan.fields.parameters;
     const std::vector<double>& factors = frame.parameters.fields;
-    for (size_t i = 0; i < std::min(factors.size(), plan.fieldWeights.size()); ++i)
-        out[plan.fieldWeights[i]].w *= float(factors[i]);
-    setClocks(out, plan.fieldClocks, frame.time);
+    for (size_t i = 0; i < std::min(factors.size(), plan.fields.weights.size()); ++i)
+        out[plan.fields.weights[i]].w *= float(factors[i]);
+    setClocks(out, plan.fields.clocks, frame.time);
     return out;
 }
 
 std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame) {
     std::vector<glm::vec4> out = group.colliderParameters;
-    setPoses(out, plan.movingColliders, plan.fastestSlot, frame.time, frame.parameters.frameTime);
+    setPoses(out, plan.colliders.moving, plan.colliders.fastestSlot, frame.time, frame.parameters.frameTime);
     return out;
 }
 

@@ -37,7 +37,7 @@ static gpu::VolumeTexture makeTile(gpu::Context& context, const NoiseTile& tile)
 }
 
 Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
-    for (const NoiseTile& tile : plan.noiseTiles)
+    for (const NoiseTile& tile : plan.fields.noiseTiles)
         noiseTiles.push_back(makeTile(context, tile));
     if (form == Form::texture) {
         topology = makeTable(context, plan.topology, plan.topologyRows, "topology");
@@ -58,8 +58,8 @@ void Tables::bind(const gpu::Program& program, const Plan& plan, int unit) const
     if (samples && program.uses("samples")) program.texture("samples", unit, samples);
     constexpr int firstUnit = 24;  // beyond all others; OpenGL 3.3 has 48
     for (size_t i = 0; i < noiseTiles.size(); ++i)
-        if (program.uses(plan.noiseTiles[i].sampler()))
-            program.texture(plan.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
+        if (program.uses(plan.fields.noiseTiles[i].sampler()))
+            program.texture(plan.fields.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
 }
 
 void Tables::updateTopology(const Plan& plan, size_t group) {

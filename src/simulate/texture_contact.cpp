@@ -167,7 +167,7 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
         options.fragment = concat("contact/", file, ".frag");
         options.defines = common;
         options.label = concat("contact ", file, " of ", plan.name);
-        options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
+        options.generated = {{"generated/colliders.glsl", plan_->colliders.source}};
         return Program(context, options);
     };
     OfGroup out;

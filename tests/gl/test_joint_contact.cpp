@@ -296,7 +296,7 @@ TEST_CASE("what a paddle throws further than its own way meets the wall, among m
         for (int i = 0; i < far; ++i)
             scene.colliders.push_back(
                 {.name = concat("far ", i), .shape = SphereCollider{{50 + 3 * i, 0, 0}, 1}});
-        REQUIRE((compile(scene).colliderTurns > 0) == (far > 0));
+        REQUIRE((compile(scene).colliders.turns > 0) == (far > 0));
         Simulation simulation = test::simulationOf(scene);
         run(simulation,
             1);  // at rest until the paddle takes them along by up to 0.15 m, through where the wall is
@@ -319,7 +319,7 @@ TEST_CASE("a molecule among many colliders moves as among those that are near it
                 if (all || glm::distance(middle, start) < 1.1)
                     scene.colliders.push_back({.name = concat(i), .shape = SphereCollider{middle, 0.25}});
             }
-            REQUIRE((compile(scene).colliderTurns > 0) == all);
+            REQUIRE((compile(scene).colliders.turns > 0) == all);
             Simulation simulation(testContext(), compile(scene), {.path = testPath()});
             test::run(simulation, 40);
             end[all] = simulation.snapshot(0).positions[0];

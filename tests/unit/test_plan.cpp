@@ -55,8 +55,8 @@ std::string passes(const Plan& plan) {
 TEST_CASE("a bare point is only advected", "[plan]") {
     const Plan plan = compile(sceneWith("point"));
     CHECK(passes(plan) == "records|advect|watch");
-    CHECK(plan.fieldSource.empty());
-    CHECK(plan.collideSource.empty());
+    CHECK(plan.fields.source.empty());
+    CHECK(plan.colliders.source.empty());
 }
 
 TEST_CASE("each need brings its pass and no other", "[plan]") {
@@ -71,7 +71,7 @@ TEST_CASE("each need brings its pass and no other", "[plan]") {
     CHECK(passes(compile(scene)) == "records restore|advect collide restore|normals watch");
     scene.groups[0].collide = false;
     CHECK(passes(compile(scene)) == "records restore|advect restore|normals watch");
-    CHECK(compile(scene).collideSource.empty());
+    CHECK(compile(scene).colliders.source.empty());
 
     scene.groups[0].drag = {4, 1};
     CHECK(passes(compile(scene)) == "records restore|normals advect restore|normals watch");
@@ -83,11 +83,11 @@ TEST_CASE("fields are read only where there is drag", "[plan]") {
     Scene scene = sceneWith("quad");
     scene.fields.push_back(field(UniformField{{1, 0, 0}}));
     CHECK_FALSE(compile(scene).groups[0].needs.fields);
-    CHECK(compile(scene).fieldSource.empty());
+    CHECK(compile(scene).fields.source.empty());
     scene.groups[0].drag = {1, 1};
     const Plan plan = compile(scene);
     CHECK(plan.groups[0].needs.fields);
-    CHECK(plan.fieldSource.find("fieldParameters[0].xyz") != std::string::npos);
+    CHECK(plan.fields.source.find("fieldParameters[0].xyz") != std::string::npos);
 }
 
 TEST_CASE("what hangs on pins for good keeps no records pass", "[plan]") {
@@ -119,9 +119,9 @@ TEST_CASE("changing a number changes no shader text", "[plan]") {
     scene.colliders[0] = collider(SphereCollider{{1, 2, 3}, 4});
     scene.colliders[0].restitution = 0.9;
     const Plan after = compile(scene);
-    CHECK(after.fieldSource == before.fieldSource);
-    CHECK(after.collideSource == before.collideSource);
-    CHECK(after.fieldParameters != before.fieldParameters);
+    CHECK(after.fields.source == before.fields.source);
+    CHECK(after.colliders.source == before.colliders.source);
+    CHECK(after.fields.parameters != before.fields.parameters);
     CHECK(after.groups[0].colliderParameters != before.groups[0].colliderParameters);
 }
 

@@ -22,8 +22,8 @@ constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
 bool sameProgram(const Plan& a, const Plan& b) {
     const GroupPlan &one = a.groups[0], &other = b.groups[0];
     return one.kernel == other.kernel && one.solver == other.solver && one.springCount == other.springCount &&
-           a.fieldSource == b.fieldSource && a.fieldParameters == b.fieldParameters &&
-           a.collideSource == b.collideSource && a.gravity == b.gravity && a.substeps == b.substeps &&
+           a.fields.source == b.fields.source && a.fields.parameters == b.fields.parameters &&
+           a.colliders.source == b.colliders.source && a.gravity == b.gravity && a.substeps == b.substeps &&
            one.colliderParameters == other.colliderParameters && one.drag.normal == other.drag.normal &&
            one.drag.tangent == other.drag.tangent && one.rigid == other.rigid;
 }
