@@ -227,7 +227,11 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
             std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
             while (offset > 0 && std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
                 --offset;  // back to the start of a word such as "nan" or "tru"
-        throw Error(locate(text, offset, file), expectation(result.Code()), ", found ", found(text, offset));
+        const std::string_view number =
+            text.substr(offset, text.find_first_not_of("+-.0123456789eE", offset) - offset);
+        throw Error(locate(text, offset, file), expectation(result.Code()), ", found ",
+                    result.Code() == rapidjson::kParseErrorNumberTooBig ? std::string(number.substr(0, 40))
+                                                                        : found(text, offset));
     }
     return builder.takeRoot();
 }
