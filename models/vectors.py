@@ -1,4 +1,4 @@
-"""Small maths for the generators: three-vectors as tuples, repeatable smooth noise, profiles for a lathe."""
+"""Small maths for the generators: three-vectors as tuples, repeatable smooth noise, curves, light and colours."""
 
 import math
 
@@ -71,14 +71,29 @@ def noise(p, seed=0):
     return total
 
 
+def catmull_rom(points, i, t):
+    """Returns a place on the curve through the points, t from 0 to 1 of the way from point i to the one after it."""
+    a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
+    return tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t * t + (3 * q - p - 3 * r + s) * t ** 3)
+                 for p, q, r, s in zip(a, b, c, d))
+
+
 def smooth(points, pieces):
     """Catmull-Rom through the points (radius, height) of a profile; its ends stay on the axis."""
-    out = []
-    for i in range(len(points) - 1):
-        a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
-        for k in range(pieces):
-            t = k / pieces
-            out.append(tuple(0.5 * (2 * b[n] + (c[n] - a[n]) * t + (2 * a[n] - 5 * b[n] + 4 * c[n] - d[n]) * t * t
-                                    + (3 * b[n] - a[n] - 3 * c[n] + d[n]) * t ** 3) for n in (0, 1)))
-    out.append(points[-1])
-    return [(max(r, 0.0), y) for r, y in out]
+    out = [catmull_rom(points, i, k / pieces) for i in range(len(points) - 1) for k in range(pieces)]
+    return [(max(r, 0.0), y) for r, y in out + [points[-1]]]
+
+
+def light_at(p, n, lamp, nearest, rim):
+    """Returns how much of a lamp's light falls on a surface, by the angle and the square of the distance.
+
+    A distance counts as at least `nearest`. A lamp has some size: what turns away from its middle still sees its `rim`.
+    """
+    towards = sub(lamp, p)
+    d = max(length(towards), nearest)
+    return max(dot(n, scale(towards, 1 / d)) + rim, 0.0) / (1 + rim) / (d * d)
+
+
+def to_srgb(colour):
+    """Returns a linear colour in sRGB; what is brighter than 1 becomes 1."""
+    return tuple(12.92 * c if c <= 0.0031308 else 1.055 * min(c, 1.0) ** (1 / 2.4) - 0.055 for c in colour)

@@ -122,7 +122,7 @@ def write_hive():
             colour = mix((0.03, 0.02, 0.015), straw(turn, up), smoothstep(0.85, 1.1, door))
             row.append(obj.add_vertex(p, n, colour))
         rows.append(row)
-    join(obj, uv, rows, True)
+    obj.join(rows, uv, closed=True)
     obj.begin_object("stand")
     box(obj, uv, (0, BOARD - 0.02, 0.05), (0.8, 0.04, 0.86), (0.47, 0.37, 0.27))
     for x in (-0.3, 0.3):
@@ -130,15 +130,6 @@ def write_hive():
         for z in (-0.26, 0.34):
             box(obj, uv, (x, BOARD / 2 - 0.2, z), (0.07, BOARD + 0.25, 0.07), (0.40, 0.31, 0.22))
     obj.save(HERE / "hive.obj")
-    print("hive.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
-
-
-def join(obj, uv, rows, closed):
-    for a, b in zip(rows, rows[1:]):
-        for i in range(len(a) if closed else len(a) - 1):
-            n = (i + 1) % len(a)
-            obj.add_triangle((a[i], uv), (a[n], uv), (b[n], uv))
-            obj.add_triangle((a[i], uv), (b[n], uv), (b[i], uv))
 
 
 def box(obj, uv, middle, size, colour):
@@ -161,7 +152,7 @@ def box(obj, uv, middle, size, colour):
                 rows.append(row)
             if sign < 0:
                 rows.reverse()
-            join(obj, uv, rows, False)
+            obj.join(rows, uv)
 
 
 if __name__ == "__main__":

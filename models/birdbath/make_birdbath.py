@@ -17,8 +17,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import lathe, sphere  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, cross, length, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
+from vectors import add, length, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
 
 SIDES = 64
 STONE, DARK = (0.60, 0.57, 0.51), (0.40, 0.38, 0.35)
@@ -45,29 +46,6 @@ def flutes(angle, radius, y):
 
 def scallops(angle, radius, y):
     return radius * (1 + 0.022 * smoothstep(0.66, 0.88, y) * smoothstep(0.25, 0.44, radius) * math.cos(16 * angle))
-
-
-def lathe(profile, shape):
-    """Positions and triangles of a closed shell; the first and the last point of the profile are on the axis."""
-    rings = profile[1:-1]
-    positions = [(0.0, profile[0][1], 0.0)]
-    for r, y in rings:
-        for side in range(SIDES):
-            angle = 2 * math.pi * side / SIDES
-            radius = shape(angle, r, y)
-            positions.append((radius * math.cos(angle), y, -radius * math.sin(angle)))
-    positions.append((0.0, profile[-1][1], 0.0))
-    triangles = []
-    last = len(positions) - 1
-    for side in range(SIDES):
-        after = (side + 1) % SIDES
-        triangles.append((0, 1 + after, 1 + side))
-        for ring in range(len(rings) - 1):
-            a, b = 1 + ring * SIDES, 1 + (ring + 1) * SIDES
-            triangles += [(a + side, a + after, b + after), (a + side, b + after, b + side)]
-        top = 1 + (len(rings) - 1) * SIDES
-        triangles.append((last, top + side, top + after))
-    return positions, triangles
 
 
 def slab(low, high, cuts=5, bevel=0.012):
@@ -100,38 +78,13 @@ def slab(low, high, cuts=5, bevel=0.012):
     return positions, triangles
 
 
-def boulder(middle, radii, seed, sides=20, rings=12):
-    positions, triangles = [], []
-
-    def point(polar, angle):
-        n = (math.sin(polar) * math.cos(angle), math.cos(polar), -math.sin(polar) * math.sin(angle))
+def boulder(middle, radii, seed):
+    directions, triangles = sphere(20, 12)
+    positions = []
+    for n in directions:
         push = 1 + 0.28 * noise(scale(n, 1.5), seed) + 0.08 * noise(scale(n, 4), seed + 1)
-        return add(middle, tuple(c * r * push for c, r in zip(n, radii)))
-
-    positions.append(point(0, 0))
-    for ring in range(1, rings):
-        for side in range(sides):
-            positions.append(point(math.pi * ring / rings, 2 * math.pi * side / sides))
-    positions.append(point(math.pi, 0))
-    last = len(positions) - 1
-    for side in range(sides):
-        after = (side + 1) % sides
-        triangles.append((0, 1 + side, 1 + after))
-        for ring in range(rings - 2):
-            a, b = 1 + ring * sides, 1 + (ring + 1) * sides
-            triangles += [(a + side, b + side, b + after), (a + side, b + after, a + after)]
-        foot = 1 + (rings - 2) * sides
-        triangles.append((last, foot + after, foot + side))
+        positions.append(add(middle, tuple(c * r * push for c, r in zip(n, radii))))
     return positions, triangles
-
-
-def normals_of(positions, triangles):
-    sums = [(0.0, 0.0, 0.0)] * len(positions)
-    for t in triangles:
-        n = cross(sub(positions[t[1]], positions[t[0]]), sub(positions[t[2]], positions[t[0]]))
-        for v in t:
-            sums[v] = add(sums[v], n)
-    return [normalize(n) for n in sums]
 
 
 def colour(p, n):
@@ -143,25 +96,15 @@ def colour(p, n):
     return mix(stone, MOSS, smoothstep(0.35, 0.75, damp + 0.35 * noise(scale(p, 11), 6)))
 
 
-def write(writer, name, positions, triangles):
-    writer.begin_object(name)
-    normals = normals_of(positions, triangles)
-    numbers = [writer.add_vertex(p, n, colour(p, n)) for p, n in zip(positions, normals)]
-    uv = writer.uv(0, 0)
-    for t in triangles:
-        writer.add_triangle(*((numbers[v], uv) for v in t))
-
-
 def main():
     writer = ObjWriter(["A stone bird bath with boulders, by make_birdbath.py. Metres, Y up, sRGB vertex colours."])
-    for number, (low, high) in enumerate(SLABS):
-        write(writer, "slab %d" % (number + 1), *slab(low, high))
-    write(writer, "column", *lathe(smooth(COLUMN, 2), flutes))
-    write(writer, "bowl", *lathe(smooth(BOWL, 2), scallops))
-    for number, (middle, radii, seed) in enumerate(BOULDERS):
-        write(writer, "boulder %d" % (number + 1), *boulder(middle, radii, seed))
+    meshes = [("slab %d" % (k + 1), slab(*corners)) for k, corners in enumerate(SLABS)]
+    meshes += [("column", lathe(smooth(COLUMN, 2), SIDES, flutes)), ("bowl", lathe(smooth(BOWL, 2), SIDES, scallops))]
+    meshes += [("boulder %d" % (k + 1), boulder(*place)) for k, place in enumerate(BOULDERS)]
+    for name, (positions, triangles) in meshes:
+        writer.begin_object(name)
+        writer.add_mesh(positions, triangles, colour)
     writer.save(HERE / "birdbath.obj")
-    print("birdbath.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
 if __name__ == "__main__":

@@ -14,9 +14,10 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import on_surface  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import (add, cross, distance, dot, length, mix, noise, normalize, perpendicular, scale,  # noqa: E402
-                     smoothstep, sub)
+from vectors import (add, cross, distance, dot, light_at, mix, noise, normalize, perpendicular, scale,  # noqa: E402
+                     smoothstep, sub, to_srgb)
 
 FIRE = (0.0, 0.42, 0.0)  # m
 LIGHT = (1.0, 0.40, 0.12)  # linear, of a surface 0.6 m away that faces it
@@ -27,18 +28,10 @@ LOGS, STONES = 7, 13
 
 def lit(albedo, p, n, glow=0.0):
     """Linear albedo to the vertex colour in sRGB."""
-    towards = sub(FIRE, p)
-    d = max(length(towards), 0.18)
-    # A fire has some size: what turns away from its middle still sees its rim.
-    facing = max(dot(n, scale(towards, 1 / d)) + 0.25, 0.0) / 1.25
-    light = scale(LIGHT, 0.36 / (d * d) * facing)
+    light = scale(LIGHT, 0.36 * light_at(p, n, FIRE, nearest=0.18, rim=0.25))
     moon = (0.010, 0.012, 0.016)
-    total = tuple(albedo[i] * (light[i] + moon[i]) + glow * (1.3, 0.22, 0.02)[i] for i in range(3))
-    return tuple(to_srgb(min(c / BRIGHTEST, 1.0)) for c in total)
-
-
-def to_srgb(c):
-    return 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
+    total = (albedo[i] * (light[i] + moon[i]) + glow * (1.3, 0.22, 0.02)[i] for i in range(3))
+    return to_srgb(c / BRIGHTEST for c in total)
 
 
 def height(x, z):
@@ -57,9 +50,8 @@ def write_ground(obj, uv):
         row = []
         for side in range(sides):
             angle = 2 * math.pi * side / sides
-            x, z, e = r * math.cos(angle), r * math.sin(angle), 0.03
-            p = (x, height(x, z), z)
-            n = normalize((height(x - e, z) - height(x + e, z), 2 * e, height(x, z - e) - height(x, z + e)))
+            x, z = r * math.cos(angle), r * math.sin(angle)
+            p, n = on_surface(height, x, z, 0.03)
             tone = noise((2.2 * x, 2.5, 2.2 * z), 4) + 0.6 * noise((7 * x, 2.5, 7 * z), 5)
             soil = mix((0.13, 0.10, 0.07), (0.24, 0.19, 0.13), 0.5 + 0.4 * tone)
             grass = mix((0.08, 0.11, 0.04), (0.15, 0.17, 0.06), 0.5 + 0.4 * tone)
@@ -71,7 +63,7 @@ def write_ground(obj, uv):
             shade = 1 - 0.55 * smoothstep(0.5, 0.62, r) * smoothstep(1.5, 0.7, r)
             row.append(obj.add_vertex(p, n, lit(scale(albedo, shade), p, n, 0.8 * ember)))
         rows.append(row)
-    join(obj, uv, rows)
+    obj.join(rows, uv, closed=True)
 
 
 def write_logs(obj, uv):
@@ -116,7 +108,7 @@ def log(obj, uv, start, end, radius, seed):
             crack = smoothstep(0.15, 0.75, noise((38 * p[0], 38 * p[1], 38 * p[2]), 13))
             row.append(obj.add_vertex(p, n, lit(albedo, p, n, near * crack)))
         rows.append(row)
-    join(obj, uv, rows)
+    obj.join(rows, uv, closed=True)
 
 
 def write_stones(obj, uv):
@@ -150,15 +142,7 @@ def write_stones(obj, uv):
                 soot = 1 - 0.5 * smoothstep(0.62, 0.5, math.hypot(p[0], p[2]))
                 row.append(obj.add_vertex(p, n, lit(scale((tone, 0.96 * tone, 0.9 * tone), soot), p, n)))
             rows.append(row)
-        join(obj, uv, rows)
-
-
-def join(obj, uv, rows):
-    for a, b in zip(rows, rows[1:]):
-        for i in range(len(a)):
-            n = (i + 1) % len(a)
-            obj.add_triangle((a[i], uv), (a[n], uv), (b[n], uv))
-            obj.add_triangle((a[i], uv), (b[n], uv), (b[i], uv))
+        obj.join(rows, uv, closed=True)
 
 
 def main():
@@ -168,7 +152,6 @@ def main():
     write_logs(obj, uv)
     write_stones(obj, uv)
     obj.save(HERE / "campfire.obj")
-    print("campfire.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

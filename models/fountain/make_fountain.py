@@ -14,6 +14,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import on_surface  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
 from vectors import cross, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
 
@@ -55,11 +56,7 @@ def turned(obj, profile, uv, joints):
             p = (r * c, y, r * s)
             row.append(obj.add_vertex(p, (across[0] * c, across[1], across[0] * s), stone(p, joints and side % 8 == 0)))
         rows.append(row)
-    for a, b in zip(rows, rows[1:]):
-        for side in range(SIDES):
-            n = (side + 1) % SIDES
-            obj.add_triangle((a[side], uv), (a[n], uv), (b[n], uv))
-            obj.add_triangle((a[side], uv), (b[n], uv), (b[side], uv))
+    obj.join(rows, uv, closed=True)
 
 
 def write_fountain():
@@ -71,7 +68,6 @@ def write_fountain():
     turned(obj, WALL, uv, True)
     write_paving(obj, uv)
     obj.save(HERE / "fountain.obj")
-    print("fountain.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 def write_paving(obj, uv):
@@ -93,10 +89,7 @@ def write_paving(obj, uv):
             p = (x, PAVING - (0.008 if joint else 0.0), z)
             row.append(obj.add_vertex(p, (0, 1, 0), scale(stone(p, joint), tone)))
         rows.append(row)
-    for a, b in zip(rows, rows[1:]):
-        for i in range(len(ticks) - 1):
-            obj.add_triangle((a[i], uv), (b[i], uv), (b[i + 1], uv))
-            obj.add_triangle((a[i], uv), (b[i + 1], uv), (a[i + 1], uv))
+    obj.join(rows, uv, flip=True)
     corners = [(-1, -1), (-1, 1), (1, 1), (1, -1)]
     for (ax, az), (bx, bz) in zip(corners, corners[1:] + corners[:1]):
         top, bottom = PAVING - 0.008, -0.4
@@ -104,12 +97,11 @@ def write_paving(obj, uv):
                   (HALF_SIZE * bx, bottom, HALF_SIZE * bz), (HALF_SIZE * ax, bottom, HALF_SIZE * az)]
         n = normalize(cross(sub(points[2], points[0]), sub(points[1], points[0])))
         v = [obj.add_vertex(p, n, scale(stone(p, True), 0.9)) for p in points]
-        obj.add_triangle((v[0], uv), (v[2], uv), (v[1], uv))
-        obj.add_triangle((v[0], uv), (v[3], uv), (v[2], uv))
+        obj.add_triangles(((v[0], v[2], v[1]), (v[0], v[3], v[2])), uv)
 
 
 def ripples(x, z):
-    """Height of the water: rings that run out from where the drops fall, smaller towards the wall."""
+    """Height above WATER: rings that run out from where the drops fall, smaller towards the wall."""
     r = math.hypot(x, z)
     fade = smoothstep(0.15, 0.35, r) * smoothstep(INSIDE, 0.6, r)
     ring = math.sin(26 * r + 2.5 * noise((2 * x, 0.5, 2 * z), 9))
@@ -127,20 +119,12 @@ def write_water():
         row = []
         for side in range(sides):
             angle = 2 * math.pi * (side + 0.5 * (ring % 2)) / sides
-            x, z = r * math.cos(angle), r * math.sin(angle)
-            step = 0.01
-            n = normalize((ripples(x - step, z) - ripples(x + step, z), 2 * step,
-                           ripples(x, z - step) - ripples(x, z + step)))
-            depth = smoothstep(INSIDE, INSIDE - 0.3, r)
-            row.append(obj.add_vertex((x, WATER + ripples(x, z), z), n, mix((0.34, 0.43, 0.38), (0.20, 0.36, 0.38), depth)))
+            (x, y, z), n = on_surface(ripples, r * math.cos(angle), r * math.sin(angle), 0.01)
+            colour = mix((0.34, 0.43, 0.38), (0.20, 0.36, 0.38), smoothstep(INSIDE, INSIDE - 0.3, r))
+            row.append(obj.add_vertex((x, WATER + y, z), n, colour))
         rows.append(row)
-    for a, b in zip(rows, rows[1:]):
-        for side in range(sides):
-            n = (side + 1) % sides
-            obj.add_triangle((a[side], uv), (a[n], uv), (b[n], uv))
-            obj.add_triangle((a[side], uv), (b[n], uv), (b[side], uv))
+    obj.join(rows, uv, closed=True)
     obj.save(HERE / "water.obj")
-    print("water.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import mix, noise, scale, smoothstep  # noqa: E402
+from vectors import mix, noise, scale, smoothstep, to_srgb  # noqa: E402
 
 REACH = 140.0  # m, where the sea has the sky's colour below the horizon
 CIRCLES = range(10, 61, 10)  # m
@@ -40,10 +40,6 @@ GLYPHS = {
 }
 
 
-def to_srgb(c):
-    return 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
-
-
 class Sheet:
     """Flat shapes at some height, seen from above."""
 
@@ -54,17 +50,15 @@ class Sheet:
     def corner(self, x, y, z, colour):
         return self.writer.add_vertex((x, y, z), (0.0, 1.0, 0.0), colour)
 
-    def quad(self, a, b, c, d):
-        """Anticlockwise as seen from above."""
-        self.writer.add_triangle((a, self.uv), (b, self.uv), (c, self.uv))
-        self.writer.add_triangle((a, self.uv), (c, self.uv), (d, self.uv))
+    def quad(self, corners, y, colour):
+        """The corners are four pairs (x, z), anticlockwise as seen from above."""
+        self.writer.add_quad(*[self.corner(x, y, z, colour) for x, z in corners], self.uv)
 
     def stroke(self, x0, z0, x1, z1, width, y, colour):
         length = math.hypot(x1 - x0, z1 - z0)
         ux, uz = (x1 - x0) / length * width / 2, (z1 - z0) / length * width / 2
         x0, z0, x1, z1 = x0 - ux, z0 - uz, x1 + ux, z1 + uz
-        corners = ((x0 - uz, z0 + ux), (x1 - uz, z1 + ux), (x1 + uz, z1 - ux), (x0 + uz, z0 - ux))
-        self.quad(*(self.corner(x, y, z, colour) for x, z in corners))
+        self.quad(((x0 - uz, z0 + ux), (x1 - uz, z1 + ux), (x1 + uz, z1 - ux), (x0 + uz, z0 - ux)), y, colour)
 
     def text(self, words, x, z, size, y, colour):
         """From x to the right, its foot at z, `size` high, upright for who looks along -z."""
@@ -85,9 +79,7 @@ class Sheet:
                 x, z = reach * math.cos(angle), reach * math.sin(angle)
                 row.append(self.corner(x, y, z, colour(x, z)))
             rows.append(row)
-        for i in range(sides):
-            j = (i + 1) % sides
-            self.quad(rows[0][i], rows[0][j], rows[1][j], rows[1][i])
+        self.writer.join(rows, self.uv, closed=True)
 
 
 def water(x, z):
@@ -119,16 +111,14 @@ def main():
     for i in range(pieces):
         q = i / (pieces - 1) * (len(SCALE_COLOURS) - 1)
         k = min(int(q), len(SCALE_COLOURS) - 2)
-        colour = tuple(to_srgb(c) for c in mix(SCALE_COLOURS[k], SCALE_COLOURS[k + 1], q - k))
+        colour = to_srgb(mix(SCALE_COLOURS[k], SCALE_COLOURS[k + 1], q - k))
         z0 = bottom + (top - bottom) * i / pieces
         z1 = bottom + (top - bottom) * (i + 1) / pieces
-        sheet.quad(*(sheet.corner(x, 0.06, z, colour) for x, z in
-                     ((left, z0), (left + 3.4, z0), (left + 3.4, z1), (left, z1))))
+        sheet.quad(((left, z0), (left + 3.4, z0), (left + 3.4, z1), (left, z1)), 0.06, colour)
     for speed in (SCALE_FROM, (SCALE_FROM + SCALE_TO) // 2, SCALE_TO):
         z = bottom + (top - bottom) * (speed - SCALE_FROM) / (SCALE_TO - SCALE_FROM)
         sheet.text("%d" % speed + (" m/s" if speed == SCALE_TO else ""), left + 4.6, z + 1.4, 2.8, 0.06, NUMBER)
     writer.save(HERE / "sea.obj")
-    print("sea.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
 if __name__ == "__main__":

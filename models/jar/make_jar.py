@@ -14,8 +14,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import lathe  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, cross, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
+from vectors import mix, noise, normalize, scale, smooth, smoothstep  # noqa: E402
 
 SIDES = 96
 PLANKS, PLANK = 8, 0.13  # m wide
@@ -39,50 +40,14 @@ PROFILE = [(0.0, 0.0), (0.06, 0.0), (0.098, 0.002), (0.112, 0.010), (0.118, 0.02
            (0.112, 0.11), (0.112, 0.06), (0.110, 0.032), (0.103, 0.018), (0.09, 0.0125), (0.05, 0.012), (0.0, 0.012)]
 
 
-def lathe(profile, sides):
-    """Positions and triangles of a closed shell. The first and the last point of the profile are on the axis."""
-    rings = profile[1:-1]
-    positions = [(0.0, profile[0][1], 0.0)]
-    for r, y in rings:
-        for side in range(sides):
-            angle = 2 * math.pi * side / sides
-            positions.append((r * math.cos(angle), y, -r * math.sin(angle)))
-    positions.append((0.0, profile[-1][1], 0.0))
-    triangles = []
-    last = len(positions) - 1
-    for side in range(sides):
-        after = (side + 1) % sides
-        triangles.append((0, 1 + after, 1 + side))
-        for ring in range(len(rings) - 1):
-            a, b = 1 + ring * sides, 1 + (ring + 1) * sides
-            triangles += [(a + side, a + after, b + after), (a + side, b + after, b + side)]
-        top = 1 + (len(rings) - 1) * sides
-        triangles.append((last, top + side, top + after))
-    return positions, triangles
-
-
-def normals_of(positions, triangles):
-    sums = [(0.0, 0.0, 0.0)] * len(positions)
-    for t in triangles:
-        n = cross(sub(positions[t[1]], positions[t[0]]), sub(positions[t[2]], positions[t[0]]))
-        for v in t:
-            sums[v] = add(sums[v], n)
-    return [normalize(n) for n in sums]
-
-
 def write_mesh():
-    positions, triangles = lathe(smooth(PROFILE, 4), SIDES)
     writer = ObjWriter(["A glass jar, by make_jar.py. Metres, Y up; one closed shell. MIT licence."])
     writer.lines.append("mtllib jar.mtl")
     writer.begin_object("jar")
     writer.lines.append("usemtl glass")
-    numbers = [writer.add_vertex(p, n, (1, 1, 1)) for p, n in zip(positions, normals_of(positions, triangles))]
-    uv = writer.uv(0, 0)
-    for t in triangles:
-        writer.add_triangle(*((numbers[v], uv) for v in t))
+    writer.add_mesh(*lathe(smooth(PROFILE, 4), SIDES), lambda p, n: (1, 1, 1))
     writer.save(HERE / "jar.obj")
     (HERE / "jar.mtl").write_text(GLASS)
-    print("jar.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
 def wood(x, z, plank):
@@ -113,12 +78,8 @@ def write_table():
                 place = TABLE_FRONT - (PLANKS - plank) * PLANK + z
                 row.append(writer.add_vertex((x, y, place), tilt, colour))
             rows.append(row)
-        for a, b in zip(rows, rows[1:]):
-            for i in range(len(profile) - 1):
-                writer.add_triangle((a[i], uv), (a[i + 1], uv), (b[i + 1], uv))
-                writer.add_triangle((a[i], uv), (b[i + 1], uv), (b[i], uv))
+        writer.join(rows, uv)
     writer.save(HERE / "table.obj")
-    print("table.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
 if __name__ == "__main__":

@@ -15,8 +15,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import on_surface, quads  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, dot, length, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
+from vectors import add, light_at, mix, noise, normalize, scale, smoothstep, to_srgb  # noqa: E402
 
 CENTRE, RADIUS = (0.0, 1.85, 0.0), 1.3  # m, of the ring
 BOWLS = [(-2.35, 1.12, 0.75), (2.35, 1.12, 0.75)]  # m, where the flames stand
@@ -32,18 +33,10 @@ LIGHTS += [(add(bowl, (0.0, 0.3, 0.0)), ORANGE, 0.42) for bowl in BOWLS]
 
 def lit(albedo, p, n, glow=(0.0, 0.0, 0.0)):
     """Linear albedo to the vertex colour in sRGB."""
-    total = [0.006, 0.008, 0.014]
+    total = (0.006, 0.008, 0.014)
     for place, colour, strength in LIGHTS:
-        towards = sub(place, p)
-        d = max(length(towards), 0.25)
-        facing = max(dot(n, scale(towards, 1 / d)) + 0.2, 0.0) / 1.2
-        for i in range(3):
-            total[i] += colour[i] * strength / (d * d) * facing
-    return tuple(to_srgb(min((albedo[i] * total[i] + glow[i]) / BRIGHTEST, 1.0)) for i in range(3))
-
-
-def to_srgb(c):
-    return 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
+        total = add(total, scale(colour, strength * light_at(p, n, place, nearest=0.25, rim=0.2)))
+    return to_srgb((albedo[i] * total[i] + glow[i]) / BRIGHTEST for i in range(3))
 
 
 def stone(p, seed, light=0.34):
@@ -77,15 +70,13 @@ def write_ground(obj, uv):
         row = []
         for side in range(sides):
             angle = 2 * math.pi * side / sides
-            x, z, e = r * math.cos(angle), r * math.sin(angle), 0.02
-            h = ground_height(x, z)
-            n = normalize((ground_height(x - e, z) - ground_height(x + e, z), 2 * e,
-                           ground_height(x, z - e) - ground_height(x, z + e)))
-            albedo = stone((x, h, z), 5, 0.30)
+            x, z = r * math.cos(angle), r * math.sin(angle)
+            p, n = on_surface(ground_height, x, z, 0.02)
+            albedo = stone(p, 5, 0.30)
             tone = noise((2.2 * x, 2.5, 2.2 * z), 7) + 0.5 * noise((7 * x, 2.5, 7 * z), 8)
             grass = mix((0.08, 0.12, 0.05), (0.17, 0.2, 0.08), 0.5 + 0.4 * tone)
             albedo = mix(albedo, grass, smoothstep(2.9, 4.2, r + 0.5 * tone))
-            row.append(obj.add_vertex((x, h, z), n, lit(albedo, (x, h, z), n)))
+            row.append(obj.add_vertex(p, n, lit(albedo, p, n)))
         rows.append(row)
     join(obj, uv, rows)
 
@@ -174,12 +165,10 @@ def write_pillars(obj, uv):
         join(obj, uv, rows)
 
 
-def join(obj, uv, rows):
-    for a, b in zip(rows, rows[1:]):
-        for i in range(len(a)):
-            n = (i + 1) % len(a)
-            obj.add_triangle((a[i], uv), (b[n], uv), (a[n], uv))
-            obj.add_triangle((a[i], uv), (b[i], uv), (b[n], uv))
+def join(obj, uv, rings):
+    """As ObjWriter.join with flip, but a face's two triangles come in the other order."""
+    for a, b, c, d in quads(rings, closed=True):
+        obj.add_triangles(((a, c, b), (a, d, c)), uv)
 
 
 def main():
@@ -190,7 +179,6 @@ def main():
     write_bowls(obj, uv)
     write_pillars(obj, uv)
     obj.save(HERE / "gate.obj")
-    print("gate.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

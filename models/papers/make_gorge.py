@@ -14,8 +14,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import mix, noise, normalize, scale, smoothstep  # noqa: E402
+from vectors import mix, noise, scale, smoothstep  # noqa: E402
 
 HALF_SIZE = 8.0  # m
 SQUARES = 112
@@ -60,11 +61,8 @@ BOULDERS = [(-1.5, 1.0, 0.7), (-0.75, 0.6, 0.42), (1.7, 0.75, 0.55), (2.45, 1.5,
             (-2.0, 4.2, 0.5), (3.1, 3.6, 0.45), (-3.3, 3.6, 0.8), (1.0, 1.15, 0.26), (-0.4, 3.9, 0.2)]
 
 
-def normal(x, z, e=0.05):
-    return normalize((height(x - e, z) - height(x + e, z), 2 * e, height(x, z - e) - height(x, z + e)))
-
-
-def colour(x, z, h, n):
+def colour(p, n):
+    x, h, z = p
     fine = noise((4.1 * x, 4.1 * h, 4.1 * z), 10)
     strata = noise((0.3 * x, 4.2 * h + 1.2 * noise((0.6 * x, 0.5, 0.6 * z), 11), 0.3 * z), 12)
     rock = mix((0.33, 0.29, 0.28), (0.53, 0.47, 0.40), 0.5 + 0.5 * strata + 0.15 * fine)
@@ -81,33 +79,18 @@ def write_gorge():
     obj = ObjWriter(["A gorge, by make_gorge.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("gorge")
     uv = obj.uv(0, 0)
-    side = SQUARES + 1
-    for row in range(side):
-        for column in range(side):
-            x = -HALF_SIZE + 2 * HALF_SIZE * column / SQUARES
-            z = -HALF_SIZE + 2 * HALF_SIZE * row / SQUARES
-            h, n = height(x, z), normal(x, z)
-            obj.add_vertex((x, h, z), n, colour(x, z, h, n))
-    for row in range(SQUARES):
-        for column in range(SQUARES):
-            a = row * side + column + 1
-            b, c, d = a + 1, a + side + 1, a + side
-            obj.add_triangle((a, uv), (d, uv), (c, uv))
-            obj.add_triangle((a, uv), (c, uv), (b, uv))
+    obj.join(obj.add_grid(ticks(HALF_SIZE, SQUARES), height, 0.05, colour), uv, flip=True)
     obj.save(HERE / "gorge.obj")
-    print("gorge.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 def write_pool():
     obj = ObjWriter(["Still water, by make_gorge.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("water")
     uv = obj.uv(0, 0)
-    for x, z in ((-5.5, -2.0), (-5.5, HALF_SIZE), (5.5, HALF_SIZE), (5.5, -2.0)):
-        obj.add_vertex((x, 0.0, z), (0, 1, 0), (0.08, 0.21, 0.22))
-    obj.add_triangle((1, uv), (2, uv), (3, uv))
-    obj.add_triangle((1, uv), (3, uv), (4, uv))
+    corners = [obj.add_vertex((x, 0.0, z), (0, 1, 0), (0.08, 0.21, 0.22))
+               for x, z in ((-5.5, -2.0), (-5.5, HALF_SIZE), (5.5, HALF_SIZE), (5.5, -2.0))]
+    obj.add_quad(*corners, uv)
     obj.save(HERE / "pool.obj")
-    print("pool.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import mix, noise, normalize, smoothstep  # noqa: E402
+from vectors import mix, noise, smoothstep  # noqa: E402
 
 HALF_SIZE = 4.5  # m
 SQUARES = 128
@@ -49,11 +50,8 @@ def height(x, z):
     return h - 2.2 * smoothstep(-2.95, -4.2, z) * (1 + 0.3 * noise((0.7 * x, 0.5, 0.7 * z), 6))
 
 
-def normal(x, z, e=0.02):
-    return normalize((height(x - e, z) - height(x + e, z), 2 * e, height(x, z - e) - height(x, z + e)))
-
-
-def colour(x, z, n):
+def colour(p, n):
+    x, _, z = p
     tone = noise((3 * x, 0.5, 3 * z), 4) + 0.6 * noise((9 * x, 0.5, 9 * z), 5)
     level = smoothstep(0.55, 0.95, n[1])
     return mix((0.42, 0.47, 0.53), (0.83, 0.84, 0.84), min(max(level + 0.04 * tone, 0.0), 1.0))
@@ -63,21 +61,8 @@ def main():
     obj = ObjWriter(["Hills, by make_hills.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("hills")
     uv = obj.uv(0, 0)
-    side = SQUARES + 1
-    for row in range(side):
-        for column in range(side):
-            x = -HALF_SIZE + 2 * HALF_SIZE * column / SQUARES
-            z = -HALF_SIZE + 2 * HALF_SIZE * row / SQUARES
-            n = normal(x, z)
-            obj.add_vertex((x, height(x, z), z), n, colour(x, z, n))
-    for row in range(SQUARES):
-        for column in range(SQUARES):
-            a = row * side + column + 1
-            b, c, d = a + 1, a + side + 1, a + side
-            obj.add_triangle((a, uv), (d, uv), (c, uv))
-            obj.add_triangle((a, uv), (c, uv), (b, uv))
+    obj.join(obj.add_grid(ticks(HALF_SIZE, SQUARES), height, 0.02, colour), uv, flip=True)
     obj.save(HERE / "hills.obj")
-    print("hills.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import shell, sphere  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, cross, dot, mix, noise, normalize, perpendicular, scale, smoothstep, sub  # noqa: E402
+from vectors import (add, catmull_rom, cross, dot, mix, noise, normalize, perpendicular, scale,  # noqa: E402
+                     smoothstep, sub)
 
 # middle, radii, seed, sides and rings
 ROCKS = [((3.7, 0.7, -2.4), (1.45, 2.7, 1.4), 4, (58, 38)), ((5.9, 0.5, -4.6), (2.3, 4.2, 2.0), 5, (56, 36)),
@@ -50,41 +52,15 @@ class Boulder:
         return x, max(y, -0.9 + 0.5 * (y + 0.9)), z  # flat below the sand
 
     def mesh(self):
-        sides, rings = self.grid
-        positions = [self.point((0.0, 1.0, 0.0))]
-        for ring in range(1, rings):
-            polar = math.pi * ring / rings
-            for side in range(sides):
-                angle = 2 * math.pi * side / sides
-                positions.append(self.point((math.sin(polar) * math.cos(angle), math.cos(polar),
-                                             -math.sin(polar) * math.sin(angle))))
-        positions.append(self.point((0.0, -1.0, 0.0)))
-        return positions, shell(sides, rings - 1)
+        directions, triangles = sphere(*self.grid)
+        return [self.point(n) for n in directions], triangles
 
 
 def spline(points, t):
     """Catmull-Rom; t from 0 to 1."""
     t *= len(points) - 1
     i = min(int(t), len(points) - 2)
-    t -= i
-    a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
-    return tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t * t + (3 * q - p - 3 * r + s) * t ** 3)
-                 for p, q, r, s in zip(a, b, c, d))
-
-
-def shell(sides, rings):
-    """Triangles of a tube with a point at either end: the first and the last vertex; anticlockwise seen from outside."""
-    triangles = []
-    last = 1 + sides * rings
-    for side in range(sides):
-        after = (side + 1) % sides
-        triangles.append((0, 1 + side, 1 + after))
-        for ring in range(rings - 1):
-            a, b = 1 + ring * sides, 1 + (ring + 1) * sides
-            triangles += [(a + side, b + side, b + after), (a + side, b + after, a + after)]
-        foot = 1 + (rings - 1) * sides
-        triangles.append((last, foot + after, foot + side))
-    return triangles
+    return catmull_rom(points, i, t - i)
 
 
 def tube(path, radius, sides, rings, round_ends=True):
@@ -114,15 +90,6 @@ def arch():
     return tube(lambda t: spline(ARCH, t), radius, ARCH_SIDES, ARCH_RINGS, round_ends=False)
 
 
-def normals_of(positions, triangles):
-    sums = [(0.0, 0.0, 0.0)] * len(positions)
-    for t in triangles:
-        n = cross(sub(positions[t[1]], positions[t[0]]), sub(positions[t[2]], positions[t[0]]))
-        for v in t:
-            sums[v] = add(sums[v], n)
-    return [normalize(n) for n in sums]
-
-
 def rock_colour(p, n):
     """Limestone, dark in its hollows and below; crusts of pink algae, green ones on what faces up."""
     stone = mix(DARK, ROCK, 0.5 + 0.5 * noise(scale(p, 2.1), 61))
@@ -130,16 +97,6 @@ def rock_colour(p, n):
     stone = mix(stone, PINK, 0.85 * smoothstep(0.12, 0.45, noise(scale(p, 1.7), 62) + 0.25 * noise(scale(p, 7), 63)))
     green = smoothstep(0.3, 0.8, n[1]) * smoothstep(-0.25, 0.3, noise(scale(p, 1.3), 64))
     return scale(mix(stone, ALGAE, 0.7 * green), 1 + 0.18 * noise(scale(p, 11), 65))
-
-
-def write(obj, name, positions, triangles, colour):
-    obj.begin_object(name)
-    numbers = []
-    for p, n in zip(positions, normals_of(positions, triangles)):
-        numbers.append(obj.add_vertex(p, n, tuple(min(max(c, 0.0), 1.0) for c in colour(p, n))))
-    uv = obj.uv(0, 0)
-    for t in triangles:
-        obj.add_triangle(*((numbers[v], uv) for v in t))
 
 
 # ---- Corals
@@ -303,9 +260,9 @@ def write_corals(rocks):
         for k, (positions, triangles) in enumerate([made] if isinstance(made, tuple) else made):
             if k == 0:
                 name = "%s %d" % (kind, used[kind])
-            write(obj, name if k == 0 else "%s, part %d" % (name, k + 1), positions, triangles, tinted(light, dark, number))
+            obj.begin_object(name if k == 0 else "%s, part %d" % (name, k + 1))
+            obj.add_mesh(positions, triangles, tinted(light, dark, number))
     obj.save(HERE / "coral.obj")
-    return obj
 
 
 # ---- Sand
@@ -318,48 +275,37 @@ def sand_height(x, z):
     return dunes - 0.06 + ripples
 
 
-def sand_colour(x, z):
+def sand_colour(p, n):
+    x, _, z = p
     tone = 0.5 + 0.5 * noise((1.1 * x, 0.5, 1.1 * z), 74)
     coarse = 0.05 * noise((9 * x, 0.5, 9 * z), 75)
     return tuple(c + coarse for c in mix(SAND_DARK, SAND_LIGHT, tone))
 
 
-def spaced(i, squares):
-    t = 2 * i / squares - 1
+def spaced(i):
+    t = 2 * i / SAND_SQUARES - 1
     return SAND_HALF * (0.38 * t + 0.62 * t * abs(t) ** 1.6)
 
 
 def write_seabed():
     obj = ObjWriter(["Rippled sand, by make_reef.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("sand")
-    side = SAND_SQUARES + 1
-    for row in range(side):
-        for column in range(side):
-            x, z = spaced(column, SAND_SQUARES), spaced(row, SAND_SQUARES)
-            step = 0.04
-            n = normalize((sand_height(x - step, z) - sand_height(x + step, z), 2 * step,
-                           sand_height(x, z - step) - sand_height(x, z + step)))
-            obj.add_vertex((x, sand_height(x, z), z), n, sand_colour(x, z))
-    uv = obj.uv(0, 0)
-    for row in range(SAND_SQUARES):
-        for column in range(SAND_SQUARES):
-            a = row * side + column + 1
-            b, c, d = a + 1, a + 1 + side, a + side
-            obj.add_triangle((a, uv), (d, uv), (c, uv))
-            obj.add_triangle((a, uv), (c, uv), (b, uv))
+    rows = obj.add_grid([spaced(i) for i in range(SAND_SQUARES + 1)], sand_height, 0.04, sand_colour)
+    obj.join(rows, obj.uv(0, 0), flip=True)
     obj.save(HERE / "seabed.obj")
-    return obj
 
 
 def main():
     obj = ObjWriter(["Rocks of a reef with an arch, by make_reef.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     rocks = [Boulder(*rock) for rock in ROCKS]
     for number, rock in enumerate(rocks):
-        write(obj, "rock %d" % (number + 1), *rock.mesh(), rock_colour)
-    write(obj, "arch", *arch(), rock_colour)
+        obj.begin_object("rock %d" % (number + 1))
+        obj.add_mesh(*rock.mesh(), rock_colour)
+    obj.begin_object("arch")
+    obj.add_mesh(*arch(), rock_colour)
     obj.save(HERE / "reef.obj")
-    for name, made in (("reef.obj", obj), ("coral.obj", write_corals(rocks)), ("seabed.obj", write_seabed())):
-        print("%s: %d vertices, %d triangles" % (name, made.vertex_count, made.triangle_count))
+    write_corals(rocks)
+    write_seabed()
 
 
 if __name__ == "__main__":

@@ -14,8 +14,9 @@ sys.path.insert(0, str(HERE.parent))
 sys.path.insert(0, str(HERE))
 
 from make_terrain import HALF_SIZE, SQUARES, ground_colour, height  # noqa: E402
+from meshes import on_surface, ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import mix, noise, normalize, scale, smoothstep  # noqa: E402
+from vectors import mix, noise, scale, smoothstep  # noqa: E402
 
 FARTHEST = 1000.0  # m
 RINGS = 50
@@ -65,14 +66,9 @@ def colour(x, z):
     return mix(base, tree, smoothstep(0.05, 0.5, woods(x, z)))
 
 
-def normal_at(x, z, step):
-    return normalize((surface(x - step, z) - surface(x + step, z), 2 * step,
-                      surface(x, z - step) - surface(x, z + step)))
-
-
 def edge():
     """The corners of the meadow's edge, anticlockwise as seen from above, from its corner at -x, -z on."""
-    steps = [-HALF_SIZE + 2 * HALF_SIZE * i / SQUARES for i in range(SQUARES)]
+    steps = ticks(HALF_SIZE, SQUARES)[:-1]
     return ([(-HALF_SIZE, s) for s in steps] + [(s, HALF_SIZE) for s in steps] +
             [(HALF_SIZE, -s) for s in steps] + [(-s, -HALF_SIZE) for s in steps])
 
@@ -89,15 +85,10 @@ def write_mesh():
             round_ = smoothstep(0, 0.4, ring / RINGS)
             factor = grown * ((1 - round_) + round_ * HALF_SIZE / math.hypot(x, z))
             x, z = x * factor, z * factor
-            row.append(obj.add_vertex((x, surface(x, z), z), normal_at(x, z, 0.05 * grown), colour(x, z)))
+            row.append(obj.add_vertex(*on_surface(surface, x, z, 0.05 * grown), colour(x, z)))
         rings.append(row)
-    for inner, outer in zip(rings, rings[1:]):
-        for i in range(len(inner)):
-            j = (i + 1) % len(inner)
-            for a, b, c in ((inner[i], outer[i], outer[j]), (inner[i], outer[j], inner[j])):
-                obj.add_triangle((a, uv), (b, uv), (c, uv))
+    obj.join(rings, uv, closed=True, flip=True)
     obj.save(HERE / "country.obj")
-    print("country.obj  %d vertices %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

@@ -17,9 +17,10 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import on_surface, quads, ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
 from png_writer import GREY_16, write_png  # noqa: E402
-from vectors import mix, noise, normalize, scale, smoothstep  # noqa: E402
+from vectors import mix, noise, scale, smoothstep  # noqa: E402
 
 HALF_SIZE = 12.0     # m
 SQUARES = 96
@@ -43,11 +44,6 @@ def height(x, z):
     return raw_height(x, z) - HEIGHT_AT_TREE
 
 
-def ground_normal(x, z, step=0.05):
-    return normalize((height(x - step, z) - height(x + step, z), 2 * step,
-                      height(x, z - step) - height(x, z + step)))
-
-
 def ground_colour(x, z):
     patch = noise((0.35 * x, 2.5, 0.35 * z), 11) + 0.5 * noise((0.9 * x, 2.5, 0.9 * z), 12)
     fine = noise((2.6 * x, 2.5, 2.6 * z), 13)
@@ -62,33 +58,22 @@ def ground_colour(x, z):
 def write_mesh():
     obj = ObjWriter(["Shoal's meadow, made by make_terrain.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("terrain")
-    side = SQUARES + 1
-    texture = []
-    for row in range(side):
-        for column in range(side):
-            x = -HALF_SIZE + 2 * HALF_SIZE * column / SQUARES
-            z = -HALF_SIZE + 2 * HALF_SIZE * row / SQUARES
-            obj.add_vertex((x, height(x, z), z), ground_normal(x, z), ground_colour(x, z))
-            texture.append(obj.uv(column / SQUARES, 1 - row / SQUARES))
-
-    def corner(row, column):
-        index = row * side + column
-        return index + 1, texture[index]
-
-    for row in range(SQUARES):
-        for column in range(SQUARES):
-            a, b = corner(row, column), corner(row, column + 1)
-            c, d = corner(row + 1, column + 1), corner(row + 1, column)
-            obj.add_triangle(a, d, c)
-            obj.add_triangle(a, c, b)
+    rows = []
+    for i, z in enumerate(ticks(HALF_SIZE, SQUARES)):
+        row = []
+        for j, x in enumerate(ticks(HALF_SIZE, SQUARES)):
+            vertex = obj.add_vertex(*on_surface(height, x, z, 0.05), ground_colour(x, z))
+            row.append((vertex, obj.uv(j / SQUARES, 1 - i / SQUARES)))
+        rows.append(row)
+    for a, b, c, d in quads(rows):
+        obj.add_triangle(a, d, c)
+        obj.add_triangle(a, c, b)
     obj.save(HERE / "terrain.obj")
-    print("terrain.obj  %d vertices %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 def write_heights():
-    step = 2 * HALF_SIZE / (SAMPLES - 1)
-    heights = [[height(-HALF_SIZE + step * column, -HALF_SIZE + step * row) for column in range(SAMPLES)]
-               for row in range(SAMPLES)]
+    places = ticks(HALF_SIZE, SAMPLES - 1)
+    heights = [[height(x, z) for x in places] for z in places]
     low, high = min(map(min, heights)), max(map(max, heights))
     assert HEIGHT_MIN <= low and high <= HEIGHT_MAX
     rows = [struct.pack(">%dH" % SAMPLES, *(round((h - HEIGHT_MIN) / (HEIGHT_MAX - HEIGHT_MIN) * 65535)

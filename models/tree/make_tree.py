@@ -26,6 +26,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import quads  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
 from vectors import (add, cross, distance, dot, length, mix, noise, normalize,  # noqa: E402
                      perpendicular, scale, smoothstep, sub)
@@ -380,17 +381,12 @@ def write_tube(obj, axis):
 
 def write_tube_faces(obj, numbers, apex, metres):
     sides = len(numbers[0])
-    texture = [[obj.uv(j / sides, v) for j in range(sides + 1)] for v in metres]
-    for i in range(len(numbers) - 1):
-        for j in range(sides):
-            k = (j + 1) % sides
-            a, b = (numbers[i][j], texture[i][j]), (numbers[i][k], texture[i][j + 1])
-            c, d = (numbers[i + 1][k], texture[i + 1][j + 1]), (numbers[i + 1][j], texture[i + 1][j])
-            obj.add_triangle(a, b, c)
-            obj.add_triangle(a, c, d)
-    for j in range(sides):
-        obj.add_triangle((numbers[-1][j], texture[-1][j]), (numbers[-1][(j + 1) % sides], texture[-1][j + 1]),
-                         (apex, obj.uv(0.5, metres[-1])))
+    rings = [[(ring[j % sides], obj.uv(j / sides, v)) for j in range(sides + 1)] for ring, v in zip(numbers, metres)]
+    for a, b, c, d in quads(rings):
+        obj.add_triangle(a, b, c)
+        obj.add_triangle(a, c, d)
+    for a, b in zip(rings[-1], rings[-1][1:]):
+        obj.add_triangle(a, b, (apex, obj.uv(0.5, metres[-1])))
 
 
 def grow_tree():
@@ -416,7 +412,6 @@ def main():
         print("%-9s %6d vertices %6d triangles" % (name, obj.vertex_count - before[0],
                                                    obj.triangle_count - before[1]))
     obj.save(HERE / "tree.obj")
-    print("tree.obj  %6d vertices %6d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

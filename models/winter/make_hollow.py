@@ -15,8 +15,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import mix, noise, normalize, scale, smoothstep  # noqa: E402
+from vectors import mix, noise, scale, smoothstep  # noqa: E402
 
 HALF_SIZE = 2.0  # m
 SQUARES = 128
@@ -45,14 +46,10 @@ def height(x, z):
     return h + 0.03 * noise((2.4 * x, 0.5, 2.4 * z), 6) + 0.012 * noise((7 * x, 0.5, 7 * z), 7)
 
 
-def ground_normal(x, z, step=0.02):
-    return normalize((height(x - step, z) - height(x + step, z), 2 * step,
-                      height(x, z - step) - height(x, z + step)))
-
-
-def ground_colour(x, z):
-    steep = 1 - ground_normal(x, z)[1]
-    layer = noise((0.8 * x, 9 * height(x, z), 0.8 * z), 8)
+def ground_colour(p, n):
+    x, y, z = p
+    steep = 1 - n[1]
+    layer = noise((0.8 * x, 9 * y, 0.8 * z), 8)
     rock = mix((0.36, 0.33, 0.32), (0.50, 0.46, 0.42), 0.5 + 0.5 * layer)
     heath = mix((0.33, 0.27, 0.17), (0.40, 0.38, 0.20), 0.5 + 0.5 * noise((4 * x, 1.5, 4 * z), 9))
     bare = scale(mix(heath, rock, smoothstep(0.08, 0.3, steep)), 1 + 0.06 * noise((13 * x, 3.5, 13 * z), 10))
@@ -64,21 +61,9 @@ def ground_colour(x, z):
 def main():
     obj = ObjWriter(["A rocky hollow, by make_hollow.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("hollow")
-    side = SQUARES + 1
-    for row in range(side):
-        for column in range(side):
-            x = -HALF_SIZE + 2 * HALF_SIZE * column / SQUARES
-            z = -HALF_SIZE + 2 * HALF_SIZE * row / SQUARES
-            obj.add_vertex((x, height(x, z), z), ground_normal(x, z), ground_colour(x, z))
-    uv = obj.uv(0, 0)
-    for row in range(SQUARES):
-        for column in range(SQUARES):
-            a = row * side + column + 1
-            b, c, d = a + 1, a + 1 + side, a + side
-            obj.add_triangle((a, uv), (d, uv), (c, uv))
-            obj.add_triangle((a, uv), (c, uv), (b, uv))
+    rows = obj.add_grid(ticks(HALF_SIZE, SQUARES), height, 0.02, ground_colour)
+    obj.join(rows, obj.uv(0, 0), flip=True)
     obj.save(HERE / "hollow.obj")
-    print("hollow.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":

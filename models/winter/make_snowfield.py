@@ -14,6 +14,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+from meshes import quads, ticks  # noqa: E402
 from obj_writer import ObjWriter  # noqa: E402
 from vectors import cross, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
 
@@ -39,31 +40,18 @@ def height(x, z):
     return mix((hills * 0.8 + 0.25,), (level,), flat)[0] + drifts - rut
 
 
-def ground_normal(x, z, step=0.2):
-    return normalize((height(x - step, z) - height(x + step, z), 2 * step,
-                      height(x, z - step) - height(x, z + step)))
+def ground_colour(p, n):
+    x, _, z = p
+    worn = 0.3 * smoothstep(0.35, 0.1, abs(abs(x - way(z)) - 0.75))
+    return scale(mix(SNOW, (0.72, 0.74, 0.80), worn), 1 + 0.02 * noise((x, 4.5, z), 5))
 
 
 def write_field():
     obj = ObjWriter(["A field under snow, by make_snowfield.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
     obj.begin_object("snowfield")
     uv = obj.uv(0, 0)
-    side = SQUARES + 1
-    for row in range(side):
-        for column in range(side):
-            x = -HALF_SIZE + 2 * HALF_SIZE * column / SQUARES
-            z = -HALF_SIZE + 2 * HALF_SIZE * row / SQUARES
-            worn = 0.3 * smoothstep(0.35, 0.1, abs(abs(x - way(z)) - 0.75))
-            colour = mix(SNOW, (0.72, 0.74, 0.80), worn)
-            obj.add_vertex((x, height(x, z), z), ground_normal(x, z), scale(colour, 1 + 0.02 * noise((x, 4.5, z), 5)))
-    for row in range(SQUARES):
-        for column in range(SQUARES):
-            a = row * side + column + 1
-            b, c, d = a + 1, a + 1 + side, a + side
-            obj.add_triangle((a, uv), (d, uv), (c, uv))
-            obj.add_triangle((a, uv), (c, uv), (b, uv))
+    obj.join(obj.add_grid(ticks(HALF_SIZE, SQUARES), height, 0.2, ground_colour), uv, flip=True)
     obj.save(HERE / "snowfield.obj")
-    print("snowfield.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 def bough(tier, side, along):
@@ -103,24 +91,15 @@ def write_fir():
                         p, n = (p[0], p[1] - 0.03 * (1 - along), p[2]), scale(n, -1)
                     row.append(obj.add_vertex(p, n, colour))
                 rows.append(row)
-            for a, b in zip(rows, rows[1:]):
-                for i in range(sides):
-                    n = (i + 1) % sides
-                    corners = ((a[i], uv), (a[n], uv), (b[n], uv)), ((a[i], uv), (b[n], uv), (b[i], uv))
-                    for corner in corners:
-                        obj.add_triangle(*(reversed(corner) if below else corner))
+            for a, b, c, d in quads(rows, closed=True):
+                obj.add_triangles(((c, b, a), (d, c, a)) if below else ((a, b, c), (a, c, d)), uv)
     rows = []
     for y, r in ((-0.5, 0.2), (0.8, 0.15), (4.0, 0.08)):
         rows.append([obj.add_vertex((r * math.cos(k * math.pi / 5), y, r * math.sin(k * math.pi / 5)),
                                     (math.cos(k * math.pi / 5), 0, math.sin(k * math.pi / 5)), (0.27, 0.21, 0.17))
                      for k in range(10)])
-    for a, b in zip(rows, rows[1:]):
-        for i in range(10):
-            n = (i + 1) % 10
-            obj.add_triangle((a[i], uv), (b[i], uv), (b[n], uv))
-            obj.add_triangle((a[i], uv), (b[n], uv), (a[n], uv))
+    obj.join(rows, uv, closed=True, flip=True)
     obj.save(HERE / "fir.obj")
-    print("fir.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 def beam(obj, uv, start, end, wide, tall, colour, top):
@@ -134,9 +113,7 @@ def beam(obj, uv, start, end, wide, tall, colour, top):
         return tuple(end_of[i] + across[i] * wide / 2 * corner[0] + up[i] * tall / 2 * corner[1] for i in range(3))
 
     def face(points, n, tone):
-        v = [obj.add_vertex(p, n, tone) for p in points]
-        obj.add_triangle((v[0], uv), (v[1], uv), (v[2], uv))
-        obj.add_triangle((v[0], uv), (v[2], uv), (v[3], uv))
+        obj.add_quad(*[obj.add_vertex(p, n, tone) for p in points], uv)
 
     for a, b in zip(corners, corners[1:] + corners[:1]):
         n = normalize(tuple(across[i] * (a[0] + b[0]) + up[i] * (a[1] + b[1]) for i in range(3)))
@@ -165,7 +142,6 @@ def write_fence():
             lift = (0, 0.085, 0)
             beam(obj, uv, tuple(map(sum, zip(a, lift))), tuple(map(sum, zip(b, lift))), 0.07, 0.06, SNOW, SNOW)
     obj.save(HERE / "fence.obj")
-    print("fence.obj: %d vertices, %d triangles" % (obj.vertex_count, obj.triangle_count))
 
 
 if __name__ == "__main__":
