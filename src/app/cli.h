@@ -33,7 +33,7 @@ bool isAll(const std::string& text, T& value) {
     return code == std::errc() && end == text.data() + text.size();
 }
 
-// A value is a T that meets the test, else "expected `what`, found …".
+// Accepts values that are a T and meet the test; of others it says "expected `what`, found …".
 template <typename T>
 CLI::Validator isA(const std::string& what, const std::function<bool(T)>& test) {
     return CLI::Validator(
@@ -45,10 +45,10 @@ CLI::Validator isA(const std::string& what, const std::function<bool(T)>& test) 
         "");
 }
 
-// A value is one of the words.
+// Accepts one of the words.
 CLI::Validator oneOf(const std::vector<std::string>& words);
 
-// The name of a file has one of the endings; where folders will do, so does what looks like none.
+// Accepts names of files with one of the endings and, where a folder will do, names without any.
 CLI::Validator endsIn(const std::vector<std::string>& endings, bool orFolder = false);
 
 // `option` means something only beside `other`.
@@ -70,9 +70,7 @@ inline void section(CLI::App& command, const char* title) {
     command.option_defaults()->group(title);
 }
 
-// Options whose value is a whole number from `least` to `most`, a number (`kind` says which, such as "a time
-// in seconds"), a file, one of the words in the order of an enumeration T, or what read(text) takes, whose
-// Error is told of the option.
+// Adds an option whose value is a whole number from `least` to `most`.
 template <typename T>
 CLI::Option* addWhole(CLI::App& command, const char* name, T& value, const std::string& what,
                       int least = std::numeric_limits<int>::min(),
@@ -84,18 +82,21 @@ CLI::Option* addWhole(CLI::App& command, const char* name, T& value, const std::
         return n >= least && n <= most;
     }));
 }
+// Adds one whose value is a number; `kind` says which, such as "a time in seconds".
 template <typename T>
 CLI::Option* addNumber(
     CLI::App& command, const char* name, T& value, const std::string& what, const std::string& kind,
     bool (*test)(double) = [](double) { return true; }) {
     return command.add_option(name, value, what)->check(isA<double>(kind, test));
 }
+// Adds one whose value is the name of a file.
 template <typename T>
 CLI::Option* addFile(CLI::App& command, const char* name, T& value, const std::string& what) {
     return command.add_option(name, value, what)
         ->check([](const std::string& file) { return file.empty() ? "expected the name of a file" : ""; })
         ->type_name("FILE");
 }
+// Calls read(text), and tells its Error as one of the option.
 template <typename Read>
 auto namingErrors(const char* name, Read read) {
     return [name, read](const std::string& text) {
@@ -106,11 +107,12 @@ auto namingErrors(const char* name, Read read) {
         }
     };
 }
+// Adds one whose value read(text) takes.
 template <typename Read>
 CLI::Option* addRead(CLI::App& command, const char* name, const std::string& what, Read read) {
     return command.add_option_function<std::string>(name, namingErrors(name, read), what);
 }
-// The same for an option that may be repeated.
+// Adds one that may be repeated, whose values read(text) takes one after another.
 template <typename Read>
 CLI::Option* addReads(CLI::App& command, const char* name, const std::string& what, Read read) {
     const auto each = [one = namingErrors(name, read)](const std::vector<std::string>& texts) {
@@ -118,6 +120,7 @@ CLI::Option* addReads(CLI::App& command, const char* name, const std::string& wh
     };
     return command.add_option_function<std::vector<std::string>>(name, each, what);
 }
+// Adds one whose value is one of the words, which stand in the order of the enumeration T.
 template <typename T>
 CLI::Option* addWord(CLI::App& command, const char* name, T& value, const std::string& what,
                      const std::vector<std::string>& words) {
@@ -142,7 +145,7 @@ void addExport(CLI::App& command, Options& options);
 void addBench(CLI::App& command, Options& options);
 void addField(CLI::App& command, Options& options);
 
-// Once the command line is parsed, what hangs on several options. Error: they do not go together.
+// These look at options together once all are read. Error: they do not go together.
 void finishExport(const Options& options);
 void finishMeasure(Options& options);
 
@@ -150,7 +153,7 @@ void finishMeasure(Options& options);
 // options, and a function of commands.h.
 void addMolecule(CLI::App& app, Options& options);
 
-// Once the command line is parsed: which command of `molecule` it is, if any. Error: as makeMolecule().
+// Finds which command of `molecule` it is, if any. Error: its options do not go together.
 void finishMolecule(const CLI::App& app, Options& options);
 
 // ---- Documents

@@ -166,7 +166,7 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
     return {};
 }
 
-// What goes together, of run and explain.
+// Error: options of run or explain that do not go together.
 void checkTogether(const Options& options) {
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",

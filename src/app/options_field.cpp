@@ -5,7 +5,7 @@
 
 namespace shoal::app {
 
-// x, y or z, and where.
+// Reads an axis and a position on it, such as y=0.5.
 static void readSlice(const std::string& text, Options& options) {
     const size_t axis = text.empty() ? std::string::npos : std::string("xyz").find(text[0]);
     double position = 0;

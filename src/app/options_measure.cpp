@@ -72,7 +72,6 @@ void addCountAndSeed(CLI::App& command, Options& options) {
             isA<uint64_t>("a whole number from 0 to 18446744073709551615", [](uint64_t) { return true; }));
 }
 
-// For what the times of so many seconds are.
 static void addSeconds(CLI::App& command, Options& options, const std::string& what) {
     addNumber(command, "--seconds", options.seconds, what, "a time above 0, at most 3600 s",
               [](double s) { return s > 0 && s <= 3600; });

@@ -17,7 +17,7 @@ const char* when(PassPlan::When moment) {
     return words[size_t(moment)];
 }
 
-// The form that a group takes on either kind of device.
+// Returns the form that a group takes, or would take, on a GPU or on a CPU rasteriser.
 std::string formOn(const Plan& plan, const GroupPlan& group, Lanes wanted, bool software) {
     PathLimits limits;
     limits.software = software;
@@ -28,7 +28,7 @@ std::string formOn(const Plan& plan, const GroupPlan& group, Lanes wanted, bool 
     }
 }
 
-// How its molecules are spread over lanes.
+// Tells how its molecules are spread over lanes.
 std::string lanesText(const Plan& plan, const GroupPlan& group, Lanes wanted) {
     const PathLimits limits;
     const std::string onRasteriser = formOn(plan, group, wanted, true);

@@ -95,7 +95,7 @@ class PartFile {
     void replaceTarget();                                        // Error: cannot be renamed
 
   private:
-    // Folders that were made, the innermost first; those that are empty go with it.
+    // Holds the folders that were made, the innermost first, and removes those that are empty.
     struct NewFolders : std::vector<std::filesystem::path> {
         ~NewFolders();
     };

@@ -279,7 +279,7 @@ bool isOfObjects(const JsonValue& array) {
                        [](const JsonValue& item) { return item.kind == Kind::object; });
 }
 
-// The names of an array's objects; fewer where some have none of their own.
+// Returns the names of an array's objects, which are fewer where some have none of their own.
 std::set<std::string> namesOf(const JsonValue& array) {
     std::set<std::string> out;
     for (const JsonValue& item : array.items)
@@ -327,7 +327,7 @@ class Merger {
         return prefer_ == Prefer::mine ? mine : theirs;
     }
 
-    // A member or element; nothing: it is not there.
+    // Returns a member or element as both leave it; nothing: it is not there any more.
     std::optional<JsonValue> mergeOne(const JsonValue* base, const JsonValue* mine, const JsonValue* theirs,
                                       const std::string& path) {
         if (base && mine && theirs) return merge(*base, *mine, *theirs, path);
@@ -335,7 +335,7 @@ class Merger {
         return chosen ? std::optional(*chosen) : std::nullopt;
     }
 
-    // Both in the order of `theirs`, which is on disk.
+    // These two keep the order of `theirs`, which is on disk.
     JsonValue mergeObjects(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs,
                            const std::string& path) {
         JsonValue out = JsonValue::makeObject();

@@ -99,7 +99,7 @@ class BufferTexture {
     size_t texels_ = 0;
 };
 
-// Borrows its buffers, which must outlive it. What has no attributes needs none (drawVertices).
+// Borrows its buffers, which must outlive it. Vertices without attributes need none (drawVertices).
 class VertexArray {
   public:
     VertexArray() = default;

@@ -78,8 +78,8 @@ class Framebuffers {
 // Passes write every texel of what they draw into as it is, whatever a renderer left switched on.
 void drawPlainly();
 
-// In the context that is current: vertices without attributes, which shaders make of gl_VertexID. Three cover
-// the target (shaders/passes/fullscreen.vert).
+// Draws vertices without attributes, which shaders make of gl_VertexID, in the context that is current. Three
+// cover the target (shaders/passes/fullscreen.vert).
 void drawVertices(int count, GLenum primitive = GL_TRIANGLES);
 
 }  // namespace shoal::gpu

@@ -49,8 +49,8 @@ class Births : public BirthPasses {
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
     std::vector<ListRange> rangesOf(size_t words) const;
     void bindBirths(const Living& living) const;
-    // Of what others are born from, a dispatch reads one range of the deaths and the part with that index of
-    // each source's state.
+    // Binds what a dispatch reads of those from whose deaths others are born: one range of the deaths, and
+    // the part with that index of each source's state.
     void bindSources(const Living& living, const ListRange& deaths, size_t index,
                      const std::vector<GroupBuffers>& state) const;
     void dispatchBirths(const Living& living, int born, const GroupBuffers& state) const;
