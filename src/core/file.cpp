@@ -352,8 +352,12 @@ void removePartFiles() noexcept {
         if (slot.state == Slot::taken && slot.owner == ::getpid()) ::unlink(slot.path);
 }
 
-FilePointer unnamedFile(const std::filesystem::path& target) {
-    std::string name = (target.parent_path() / ".shoal-spool-XXXXXX").string();
+FilePointer unnamedFile(const fs::path& target) {
+    fs::path folder = target.parent_path();
+    std::error_code code;
+    while (!folder.empty() && !fs::exists(folder, code))
+        folder = folder.parent_path();
+    std::string name = (folder / ".shoal-spool-XXXXXX").string();
     const int file = ::mkstemp(name.data());
     if (file < 0)
         throw Error(Location{target.string(), 0, 0, {}},

@@ -57,9 +57,9 @@ struct CloseFile {
 };
 using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 
-// Opens a file for data too long for memory, for writing and reading. It lies beside `target`, where there is
-// room for it if there is for `target`, and has no name, so that it vanishes when it is closed. Error: cannot
-// be made.
+// Opens a file for data too long for memory, for writing and reading. It lies beside `target`, or in the
+// nearest folder above it that is there already, where there is room for it if there is for `target`, and has
+// no name, so that it vanishes when it is closed. Error: cannot be made.
 FilePointer unnamedFile(const std::filesystem::path& target);
 
 // Reads a file piece by piece, where it need not lie in memory as a whole.

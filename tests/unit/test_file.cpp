@@ -140,6 +140,7 @@ TEST_CASE("folders that were made for a file that is not kept go with it", "[fil
     const test::Scratch folder;
     checkWritable(folder / "a/b/c.json");
     CHECK(messageOf([&] { checkWritable(folder / "trailing/"); }).find("is a folder") != std::string::npos);
+    CHECK(unnamedFile(folder / "a/b/c.png"));
     CHECK(entries(folder.folder()) == 0);
     std::filesystem::create_directory(folder / "a");
     {
