@@ -3,6 +3,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC 12 in std::regex, with sanitizers
 #endif
 #define CATCH_CONFIG_RUNNER
+#define CATCH_CONFIG_NO_POSIX_SIGNALS  // its handlers take memory: after a crash within malloc they wait for
+                                       // ever
 #include "support/run_tests.h"
 
 #include <csignal>
@@ -31,9 +33,10 @@ constexpr unsigned longest = 1200;
 
 char running[200];  // name of a test
 
-[[noreturn]] void endHanging(int) {
+// Takes no memory, since what crashed may have been within malloc.
+[[noreturn]] void end(int signal) {
     const auto print = [](const char* text) { (void)!::write(STDERR_FILENO, text, std::strlen(text)); };
-    print("\nThis test hangs: ");
+    print(signal == SIGALRM ? "\nThis test hangs: " : "\nThis test crashes: ");
     print(running);
     print("\nIt is here:\n");
     void* frames[64];
@@ -47,7 +50,6 @@ struct HangingTests : Listener {
     void testCaseStarting(const Catch::TestCaseInfo& info) override {
         Listener::testCaseStarting(info);
         std::snprintf(running, sizeof running, "%s", info.name.c_str());
-        std::signal(SIGALRM, endHanging);
         ::alarm(longest);
     }
 };
@@ -57,5 +59,12 @@ CATCH_REGISTER_LISTENER(HangingTests)
 }  // namespace
 
 int runTests(int argumentCount, char** arguments) {
+    void* frame = nullptr;
+    ::backtrace(&frame, 1);  // loads what end() needs
+    std::signal(SIGALRM, end);
+#if !defined(__SANITIZE_ADDRESS__)
+    for (const int crash : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV})
+        std::signal(crash, end);
+#endif
     return Catch::Session().run(argumentCount, arguments);
 }
