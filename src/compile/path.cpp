@@ -164,7 +164,7 @@ Path path(const std::string& word) {
         concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "fragments", "ping-pong"})));
 }
 
-static PathChoice choose(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
+PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
     checkTables(plan, limits);
     if (wanted == Path::pingPong) {
         if (lanes != Lanes::automatic) throw Error("lanes are of the fused path, not of ping-pong");
@@ -182,7 +182,7 @@ static PathChoice choose(const Plan& plan, Path wanted, const PathLimits& limits
     const bool asked = wanted == Path::fused || lanes != Lanes::automatic;
     if (asked && limits.compute) {
         checkFused(plan, limits, lanes);
-        return {Path::fused, "as asked"};
+        return {Path::fused, "as asked", lanes};
     }
     if (asked) {
         checkFragments(plan, limits);
@@ -204,12 +204,6 @@ static PathChoice choose(const Plan& plan, Path wanted, const PathLimits& limits
         throw Error(first.location().empty() ? other->location() : first.location(),
                     concat("no path can run this scene: ", first.message(), "; ", other->message()));
     return {Path::pingPong, first.message()};
-}
-
-PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
-    PathChoice out = choose(plan, wanted, limits, lanes);
-    out.lanes = lanes;
-    return out;
 }
 
 static int mostVertices(Path wanted, const PathLimits& limits) {

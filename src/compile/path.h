@@ -38,7 +38,7 @@ struct PathLimits {
 struct PathChoice {
     Path path = Path::fused;
     std::string why;                 // for people: why not another
-    Lanes lanes = Lanes::automatic;  // as they are demanded
+    Lanes lanes = Lanes::automatic;  // of the fused path, as they are demanded
 };
 
 // Error: the path that is demanded (or, for automatic, any) cannot run the plan: no OpenGL 4.3, a molecule

@@ -287,14 +287,22 @@ int takeSlot(const std::string& path) {
     return -1;
 }
 
+// Returns a folder and those above it, as far as they are not there.
+std::vector<fs::path> missingFolders(fs::path folder) {
+    std::vector<fs::path> out;
+    std::error_code code;
+    for (; !folder.empty() && !fs::exists(folder, code); folder = folder.parent_path())
+        out.push_back(folder);
+    return out;
+}
+
 }  // namespace
 
 PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks(target)) {
     const Location location{given_.string()};
     std::error_code code;
     const fs::path folder = target_.parent_path();
-    for (fs::path one = folder; !one.empty() && !fs::exists(one, code); one = one.parent_path())
-        folders_.push_back(one);
+    folders_.made = missingFolders(folder);
     if (!folder.empty()) fs::create_directories(folder, code);
     if (code) throw Error(Location{folder.string()}, "cannot make this folder: " + code.message());
     struct stat status {
@@ -320,7 +328,7 @@ PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks
 
 PartFile::NewFolders::~NewFolders() {
     std::error_code ignored;
-    for (const fs::path& folder : *this)
+    for (const fs::path& folder : made)
         fs::remove(folder, ignored);
 }
 
@@ -353,10 +361,8 @@ void removePartFiles() noexcept {
 }
 
 FilePointer unnamedFile(const fs::path& target) {
-    fs::path folder = target.parent_path();
-    std::error_code code;
-    while (!folder.empty() && !fs::exists(folder, code))
-        folder = folder.parent_path();
+    const std::vector<fs::path> missing = missingFolders(target.parent_path());
+    const fs::path folder = missing.empty() ? target.parent_path() : missing.back().parent_path();
     std::string name = (folder / ".shoal-spool-XXXXXX").string();
     const int file = ::mkstemp(name.data());
     if (file < 0)

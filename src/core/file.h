@@ -95,8 +95,9 @@ class PartFile {
     void replaceTarget();                                        // Error: cannot be renamed
 
   private:
-    // Holds the folders that were made, the innermost first, and removes those that are empty.
-    struct NewFolders : std::vector<std::filesystem::path> {
+    // Removes the folders that were made, the innermost first, where they are empty.
+    struct NewFolders {
+        std::vector<std::filesystem::path> made;
         ~NewFolders();
     };
     std::filesystem::path given_, target_, path_;

@@ -194,7 +194,10 @@ std::string expectation(rapidjson::ParseErrorCode code) {
     return "expected JSON";
 }
 
-std::string found(std::string_view text, size_t offset) {
+std::string found(std::string_view text, size_t offset, rapidjson::ParseErrorCode code) {
+    if (code == rapidjson::kParseErrorNumberTooBig)
+        return std::string(text.substr(
+            offset, std::min<size_t>(40, text.find_first_not_of("+-.0123456789eE", offset) - offset)));
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return "an empty file";
     if (offset >= text.size()) return "the end of the file";
     for (const char* word : {"NaN", "nan", "Infinity", "Inf", "inf"})
@@ -227,11 +230,8 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
             std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
             while (offset > 0 && std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
                 --offset;  // back to the start of a word such as "nan" or "tru"
-        const std::string_view number =
-            text.substr(offset, text.find_first_not_of("+-.0123456789eE", offset) - offset);
         throw Error(locate(text, offset, file), expectation(result.Code()), ", found ",
-                    result.Code() == rapidjson::kParseErrorNumberTooBig ? std::string(number.substr(0, 40))
-                                                                        : found(text, offset));
+                    found(text, offset, result.Code()));
     }
     return builder.takeRoot();
 }

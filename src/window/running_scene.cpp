@@ -248,13 +248,17 @@ void RunningScene::go(const std::string& text, std::vector<std::string>& passed)
     passed.push_back(std::move(now));
 }
 
-void RunningScene::change(const JsonValue& after) {
-    const std::string now = text();
-    const JsonValue root = parseJson(now, original_.file);
+// Returns `text`, which was read as `before`, with what differs in `after`.
+static std::string withJson(const std::string& text, const JsonValue& before, const JsonValue& after) {
     std::vector<TextChange> changes;
-    addChanges(now, root, root, after, changes);
-    if (changes.empty()) return;
-    go(withChanges(now, std::move(changes)), undo_);
+    addChanges(text, before, before, after, changes);
+    return withChanges(text, std::move(changes));
+}
+
+void RunningScene::change(const JsonValue& after) {
+    const std::string now = text(), then = withJson(now, parseJson(now, original_.file), after);
+    if (then == now) return;
+    go(then, undo_);
     redo_.clear();
 }
 
@@ -310,11 +314,9 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     std::string both = text();
     if (changed) {
         const JsonValue theirs = parseJson(there, original_.file);
-        const JsonValue all = merged(parseJson(saved_, original_.file), json(), theirs,
-                                     prefer.value_or(Prefer::mine), "$", out.conflicts);
-        std::vector<TextChange> changes;
-        addChanges(there, theirs, theirs, all, changes);
-        both = withChanges(there, std::move(changes));
+        both = withJson(there, theirs,
+                        merged(parseJson(saved_, original_.file), parseJson(both, original_.file), theirs,
+                               prefer.value_or(Prefer::mine), "$", out.conflicts));
     }
     Scene fresh = read(both);
     const std::vector<std::string> choicesToo = changedChoices(fresh);

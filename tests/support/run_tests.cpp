@@ -3,8 +3,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC 12 in std::regex, with sanitizers
 #endif
 #define CATCH_CONFIG_RUNNER
-#define CATCH_CONFIG_NO_POSIX_SIGNALS  // its handlers take memory: after a crash within malloc they wait for
-                                       // ever
+// Its handlers of signals take memory: after a crash within malloc they wait for ever.
+#define CATCH_CONFIG_NO_POSIX_SIGNALS
 #include "support/run_tests.h"
 
 #include <csignal>
