@@ -1,5 +1,5 @@
 // A triangle mesh as loaded from a model file (load_model.cpp): welded by position, node transforms applied;
-// how its parts look (load_materials.cpp), whether it encloses a volume (mesh.cpp), and how thick it is
+// how its parts look (its materials), whether it encloses a volume (mesh.cpp), and how thick it is
 // (closest_point.cpp).
 #pragma once
 
@@ -66,6 +66,9 @@ struct Mesh {
     std::vector<SurfaceMaterial> materials;
     std::vector<Image> images;       // RGBA, at most largestModelImage texels a side
     std::vector<std::string> notes;  // what is drawn otherwise than the file has it, a sentence each
+    // What is read otherwise than the file has it in shape, place or mass, a sentence each. loadMesh refuses
+    // these, or moves them to the notes.
+    std::vector<std::string> losses;
 
     glm::dvec3 low{0}, high{0};  // bounding box
 };
@@ -78,8 +81,8 @@ constexpr int largestModelImage = 2048;  // larger ones are halved when they are
 // says; a path that leads nowhere is looked for by its name beside the model. The file is read in a child
 // process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty. Error: no such file, not
 // readable as a model within limits of time and memory, a position that is not finite or beyond 1e30 m, no
-// triangles.
-Mesh loadMesh(const std::string& file);
+// triangles, and where `lenient` is not set any loss.
+Mesh loadMesh(const std::string& file, bool lenient = false);
 
 // Fills what follows from positions and triangles: missing normals (zero or an empty array), the weld
 // by position (within 1e-6 of the bounding box's diagonal), welded positions and normals, the box.

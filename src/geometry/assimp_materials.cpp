@@ -1,42 +1,20 @@
-#include "geometry/load_materials.h"
+#include "geometry/assimp_materials.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <optional>
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "geometry/mesh.h"
+#include "geometry/model_images.h"
+#include "geometry/model_reader.h"
 
 namespace shoal {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-// Half as wide and high; each texel is the mean of four.
-Image halved(const Image& image) {
-    Image out{std::max(image.width / 2, 1), std::max(image.height / 2, 1), 4, {}};
-    out.pixels.resize(size_t(out.width) * size_t(out.height) * 4);
-    uint8_t* to = out.pixels.data();
-    const auto row = [&](int y) {
-        return image.pixels.data() + size_t(std::min(y, image.height - 1)) * size_t(image.width) * 4;
-    };
-    const size_t right = image.width > 1 ? 4 : 0;
-    for (int y = 0; y < out.height; ++y) {
-        const uint8_t *above = row(2 * y), *below = row(2 * y + 1);
-        for (int x = 0; x < out.width; ++x, above += 8, below += 8, to += 4)
-            for (size_t c = 0; c < 4; ++c)
-                to[c] = uint8_t((above[c] + above[right + c] + below[c] + below[right + c] + 2) / 4);
-    }
-    return out;
-}
 
 // The texels of an embedded image that the file holds as they are.
 Image uncompressed(const aiTexture& texture) {
@@ -51,17 +29,10 @@ Image uncompressed(const aiTexture& texture) {
     return out;
 }
 
-bool anyTransparent(const Image& image) {
-    for (size_t i = 3; i < image.pixels.size(); i += 4)
-        if (image.pixels[i] < 250) return true;
-    return false;
-}
-
 class MaterialReader {
   public:
-    MaterialReader(const aiScene& scene, const std::string& file, const std::function<void(uint64_t)>& opened,
-                   Mesh& mesh)
-        : scene_(scene), folder_(fs::path(file).parent_path()), opened_(opened), mesh_(mesh) {}
+    MaterialReader(const aiScene& scene, const ModelFile& model, Mesh& mesh)
+        : scene_(scene), mesh_(mesh), images_(model, mesh.images) {}
 
     void read(const aiMaterial& material) {
         material_ = &material;
@@ -170,34 +141,10 @@ class MaterialReader {
             out.color.a = opacity;
         }
         const int mask = imageOf("opacity", {aiTextureType_OPACITY});
-        if (mask >= 0) out.colorImage = masked(out.colorImage, mask);
+        if (mask >= 0) out.colorImage = images_.masked(out.colorImage, mask);
         if (out.alpha == SurfaceMaterial::Alpha::opaque && out.colorImage >= 0 &&
             anyTransparent(mesh_.images[size_t(out.colorImage)]))
             out.alpha = SurfaceMaterial::Alpha::cut;
-    }
-
-    // Returns the number of an image with the colours of one image and the alpha of `mask`, or the brightness
-    // of `mask` where that has no alpha.
-    int masked(int colorImage, int mask) {
-        if (colorImage == mask) return colorImage;
-        Image out = mesh_.images[size_t(mask)];
-        const bool hasAlpha = anyTransparent(out);
-        const Image* colors = colorImage >= 0 ? &mesh_.images[size_t(colorImage)] : nullptr;
-        for (int y = 0; y < out.height; ++y)
-            for (int x = 0; x < out.width; ++x) {
-                uint8_t* texel = &out.pixels[(size_t(y) * size_t(out.width) + size_t(x)) * 4];
-                if (!hasAlpha) texel[3] = std::max({texel[0], texel[1], texel[2]});
-                const uint8_t white[3] = {255, 255, 255};
-                const uint8_t* from = white;
-                if (colors) {
-                    const size_t u = size_t(x) * size_t(colors->width) / size_t(out.width);
-                    const size_t v = size_t(y) * size_t(colors->height) / size_t(out.height);
-                    from = &colors->pixels[(v * size_t(colors->width) + u) * 4];
-                }
-                std::copy_n(from, 3, texel);
-            }
-        mesh_.images.push_back(std::move(out));
-        return int(mesh_.images.size()) - 1;
     }
 
     void tellDropped() {
@@ -233,73 +180,29 @@ class MaterialReader {
         return -1;
     }
 
+    // Reads what the file embeds itself; the rest lies in files.
     int load(const std::string& path, const char* what) {
-        const auto [known, fresh] = numbers_.try_emplace(path, -1);
-        if (!fresh) return known->second;
-        try {
-            Image image = read(path);
-            while (std::max(image.width, image.height) > largestModelImage)
-                image = halved(image);
-            mesh_.images.push_back(std::move(image));
-            known->second = int(mesh_.images.size()) - 1;
-        } catch (const Error& error) {
-            note(concat("its ", what, " image is left out: ", error.what()));
-        }
-        return known->second;
-    }
-
-    Image read(const std::string& path) const {
-        if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
-            if (embedded->mHeight > 0) return uncompressed(*embedded);
-            const auto* bytes = reinterpret_cast<const char*>(embedded->pcData);
-            return decoded(std::string(bytes, embedded->mWidth), path.empty() ? "an image" : path);
-        }
-        const fs::path file = find(path);
-        const std::string bytes = readFile(file);
-        opened_(bytes.size());
-        return decoded(bytes, file.string());
-    }
-
-    // An image may be packed into much fewer bytes than reading it takes: it is worth as much as a file that
-    // holds a tenth of its texels' bytes.
-    Image decoded(const std::string& bytes, const std::string& file) const {
-        opened_(std::min(texelsOf(bytes), maxImageTexels) * 4 / 10);
-        return decodeImage(bytes, file);
-    }
-
-    // Paths are of the machine on which the model was made, whose names may not tell "A" from "a".
-    fs::path find(std::string path) const {
-        std::replace(path.begin(), path.end(), '\\', '/');
-        const fs::path written(path), name = written.filename();
-        std::error_code code;
-        const auto readable = [&](const fs::path& at) {
-            return mayOpen(at) && fs::is_regular_file(at, code);
+        const auto told = [&](const std::string& why) {
+            note(concat("its ", what, " image is left out: ", why));
         };
-        if (readable(folder_ / written)) return folder_ / written;
-        for (const fs::path& folder : {folder_, folder_ / "textures", folder_.parent_path() / "textures"}) {
-            if (readable(folder / name)) return folder / name;
-            const fs::path beside = folder.empty() ? "." : folder;
-            for (fs::directory_iterator at(beside, code), end; !code && at != end; at.increment(code))
-                if (lowered(at->path().filename()) == lowered(name) && readable(at->path()))
-                    return at->path();
-        }
-        throw Error("there is no ", name.empty() ? fs::path("file") : name, " beside the model");
-    }
-
-    static std::string lowered(const fs::path& name) {
-        std::string text = name.string();
-        std::transform(text.begin(), text.end(), text.begin(),
-                       [](unsigned char c) { return std::tolower(c); });
-        return text;
+        const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str());
+        if (!embedded) return images_.fromFile(path, told);
+        return images_.kept(
+            path,
+            [&] {
+                if (embedded->mHeight > 0) return uncompressed(*embedded);
+                const auto* bytes = reinterpret_cast<const char*>(embedded->pcData);
+                return images_.decoded(std::string(bytes, embedded->mWidth),
+                                       path.empty() ? "an image" : path);
+            },
+            told);
     }
 
     const aiScene& scene_;
-    fs::path folder_;
-    const std::function<void(uint64_t)>& opened_;
     Mesh& mesh_;
+    ModelImages images_;
     const aiMaterial* material_ = nullptr;
     std::string name_;
-    std::map<std::string, int> numbers_;  // of images, by their paths in the file
 };
 
 }  // namespace
@@ -336,9 +239,8 @@ TextureCoordinates textureCoordinatesOf(const aiMaterial& material) {
     return out;
 }
 
-void readMaterials(const aiScene& scene, const std::string& file, const std::function<void(uint64_t)>& opened,
-                   Mesh& mesh) {
-    MaterialReader reader(scene, file, opened, mesh);
+void readMaterials(const aiScene& scene, const ModelFile& model, Mesh& mesh) {
+    MaterialReader reader(scene, model, mesh);
     for (unsigned i = 0; i < scene.mNumMaterials; ++i)
         reader.read(*scene.mMaterials[i]);
 }

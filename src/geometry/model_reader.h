@@ -1,0 +1,36 @@
+// The readers of model files, a source each (read_*.cpp), and what they share. For loadMesh, which chooses
+// among them (load_model.cpp), alone.
+//
+// A reader returns what the file says: Mesh's arrays of corners with node transforms applied, triangles,
+// objects, parts, materials, images, bones; zero for a normal that the file does not have. What it leaves out
+// it tells in Mesh::notes. What follows from these, the weld among it, is completeMesh's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "geometry/mesh.h"
+
+namespace shoal {
+
+// A model, and who is told of the bytes of each file that is opened for it (the limits of a child process
+// grow with them).
+struct ModelFile {
+    std::string name;
+    std::function<void(uint64_t)> opened;
+};
+
+Mesh readWithAssimp(const ModelFile& model);
+
+constexpr size_t mostElements = size_t{1} << 28;  // vertices, and triangles
+constexpr double farthest = 1e30;                 // m; beyond, volumes and their squares would overflow
+
+inline bool isFinite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace shoal
