@@ -146,10 +146,10 @@ std::vector<std::string> shapeNames() {
     return out;
 }
 
-const Shape& shapeNamed(const std::string& name) {
+const Shape& shapeNamed(std::string_view name) {
     for (const Shape& shape : shapes())
         if (name == shape.name) return shape;
-    throw Error(concat("unknown shape \"", name, "\"", suggestion(name, shapeNames())));
+    throw Error(concat("unknown shape \"", name, "\"", suggestion(std::string(name), shapeNames())));
 }
 
 Mesh shapeMesh(const Shape& shape, int divisions) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "author/from_mesh.h"
@@ -19,7 +20,7 @@ struct Shape {
 const std::vector<Shape>& shapes();
 std::vector<std::string> shapeNames();
 // Error: unknown, with the nearest.
-const Shape& shapeNamed(const std::string& name);
+const Shape& shapeNamed(std::string_view name);
 
 // Returns a mesh about the origin whose longest side is 1 m, with texture coordinates. `divisions`: of that
 // side, 1 to the shape's most. Error: others.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include "core/json_edit.h"
 #include "molecule/molecule_file.h"
@@ -158,7 +159,7 @@ namespace {
 
 constexpr const char* arrays[] = {"vertices", "springs", "triangles"};
 
-const std::vector<int>& originsOf(const Draft& draft, const std::string& key) {
+const std::vector<int>& originsOf(const Draft& draft, std::string_view key) {
     return key == "vertices"  ? draft.origins.vertices
            : key == "springs" ? draft.origins.springs
                               : draft.origins.triangles;

@@ -78,8 +78,8 @@ glm::dvec3 velocity(const CurlNoiseField& field, const glm::dvec3& x, double tim
 
 // Returns the velocity at x in one frame of a grid.
 glm::dvec3 gridVelocity(const GridField& field, const glm::dvec3& x, size_t frame) {
-    glm::ivec3 low, high;
-    glm::dvec3 share;
+    glm::ivec3 low(0), high(0);
+    glm::dvec3 share(0);
     for (int d = 0; d < 3; ++d) {
         const int cells = field.resolution[d];
         // cell i's centre is at i + 1/2 cells from the low face
