@@ -46,7 +46,7 @@ class ContactPasses : public ContactResult {
         double substep;    // s
     };
     // In a slot's count: its contacts, and that a collider may hold it (shaders/contact/flags.glsl).
-    static constexpr uint32_t contactsMask = 0x3fffffffu, heldFlag = 0x40000000u;
+    static constexpr uint32_t contactsMask = 0x1fffffffu, heldFlag = 0x20000000u;
 
     // `fused`: the state is that of the fused step.
     ContactPasses(const Plan& plan, const Tables& tables, bool fused)

@@ -1,6 +1,6 @@
-// Catch2 of either major version behind one include: Debian 12 has 2.13, newer systems have 3. What tests use of
-// the namespace Catch stands here, so that they use no name of one version alone; tests/catch_names.py holds them
-// to that.
+// Catch2 of either major version behind one include: Debian 12 has 2.13, newer systems have 3. What tests use
+// of the namespace Catch stands here, so that they use no name of one version alone; tests/catch_names.py
+// holds them to that.
 #pragma once
 
 #include <string>

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "compile/contact_plan.h"
 #include "compile/generate.h"
 #include "compile/generate_forces.h"
+#include "core/file.h"
 #include "gpu/shader_source.h"
 #include "scene/field_kinds.h"
 #include "simulate/fused_kernel.h"
@@ -730,4 +733,28 @@ TEST_CASE("a mistake in a shader is found, and located in its own file", "[shade
                            {{"main.frag", "#include \"lib/part.glsl\"\nvoid main() {}\n"}}, header300es);
     const std::string log = complaint(scratch.write("wrong.frag", source.text), source);
     CHECK_THAT(log, Catch::Contains("part.glsl:2: "));
+}
+
+// Mesa 25 makes a comparison of floats of it, for which small integers are denormals, and 0
+// (docs/testing.md).
+TEST_CASE("no shader masks out a sign bit before it compares with 0", "[shaders]") {
+    const std::regex signBit(R"(const uint (\w+) = 0x80000000u)");
+    const std::regex compared(R"(&\s*(?:~\s*(\w+)|(0x7fffffffu?))\s*\)\s*[!=]=\s*0)");
+    std::set<std::string> signs = {"0x80000000u"};
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(SHOAL_SOURCE_DIR "/shaders"))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    for (const auto& file : files) {
+        const std::string text = readFile(file);
+        for (std::sregex_iterator at(text.begin(), text.end(), signBit), end; at != end; ++at)
+            signs.insert((*at)[1]);
+    }
+    CHECK(signs.contains("FRESH"));
+    for (const auto& file : files) {
+        const std::string text = readFile(file);
+        for (std::sregex_iterator at(text.begin(), text.end(), compared), end; at != end; ++at) {
+            CAPTURE(file, at->str());
+            CHECK(!((*at)[2].matched || signs.contains((*at)[1])));
+        }
+    }
 }
