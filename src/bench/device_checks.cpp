@@ -9,6 +9,7 @@
 #include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 #include "simulate/fused.h"
+#include "simulate/self_check.h"
 
 namespace shoal::bench {
 
@@ -145,6 +146,7 @@ class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
         for (const auto& [name, scene] : solverScenes(folder_))
             add("state", name,
                 [this, name = name, scene = scene] { return stateMismatch(name, scene, stored_, device_); });
+        selfChecks();
         paths();
         forms();
         for (const char* name : {"tree/leaves", "tree/falling-leaves", "reef/school", "jar/sweets"})
@@ -165,6 +167,19 @@ class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
             return out;
         }
         throw Error("no scene of this name ships");
+    }
+
+    // What auto asks of a path before it takes it.
+    void selfChecks() {
+        for (const Path path : {Path::fused, Path::fragments, Path::pingPong})
+            for (const CheckedPart part : {CheckedPart::step, CheckedPart::contact})
+                add("self-check",
+                    concat(shoal::name(path), part == CheckedPart::step ? ", step" : ", contact"),
+                    [this, path, part] {
+                        if (path == Path::fused) needCompute(device_);
+                        const double error = selfCheckError(*device_.context, path, part);
+                        return Mismatch{error / selfCheckTolerance, formatted("%.2g mm off", error * 1000)};
+                    });
     }
 
     // Fields, pins and springs; colliders; births; schools; contact.

@@ -189,16 +189,27 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits, L
         return {Path::fragments,
                 concat("as asked, in fragment shaders: OpenGL ", limits.version, " has no compute shaders")};
     }
-    const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits, lanes); });
+    const auto checkRight = [&](Path path) {
+        if (const std::string& why = limits.wrong[size_t(path)]; !why.empty()) throw Error(why);
+    };
+    const std::optional<Error> fused = complaintOf([&] {
+        checkRight(Path::fused);
+        checkFused(plan, limits, lanes);
+    });
     if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
     // What a CPU rasteriser would compile for too long as compute shaders, it would for as long as fragments.
     const bool tooLong = limits.compute && limits.software &&
                          std::any_of(plan.groups.begin(), plan.groups.end(),
                                      [&](const GroupPlan& group) { return takesLong(plan, group); });
-    const std::optional<Error> fragments =
-        tooLong ? fused : complaintOf([&] { checkFragments(plan, limits); });
+    const std::optional<Error> fragments = tooLong ? fused : complaintOf([&] {
+        checkRight(Path::fragments);
+        checkFragments(plan, limits);
+    });
     if (!fragments) return {Path::fragments, fused->message()};
-    const std::optional<Error> other = complaintOf([&] { checkPingPong(plan, limits); });
+    const std::optional<Error> other = complaintOf([&] {
+        checkRight(Path::pingPong);
+        checkPingPong(plan, limits);
+    });
     const Error& first = limits.compute ? *fused : *fragments;
     if (other)
         throw Error(first.location().empty() ? other->location() : first.location(),

@@ -8,6 +8,7 @@
 //               independent check of the other.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "compile/lanes.h"
@@ -33,6 +34,9 @@ struct PathLimits {
     int maxUniformBlockBytes = 16384;
     int targets = 8;  // textures that one draw writes
     int maxTextureLayers = 256;
+    // By Path: why a path computes wrongly on this driver (simulate/self_check.h) and is taken only when it
+    // is demanded; empty: it does not.
+    std::array<std::string, 4> wrong = {};
 };
 
 struct PathChoice {

@@ -40,6 +40,7 @@ class ProgramCache {
     bool load(const std::string& key, GLuint program);
     void store(const std::string& key, GLuint program);
 
+    const std::filesystem::path& folder() const { return folder_; }  // empty: none
     bool active() const { return active_; }
     int hits() const { return hits_; }
     int misses() const { return misses_; }  // compiled; damaged files count

@@ -8,6 +8,7 @@
 #include "simulate/fragments.h"
 #include "simulate/fused.h"
 #include "simulate/ping_pong.h"
+#include "simulate/self_check.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -19,7 +20,8 @@ static Tables::Form tableFormOf(Path path) {
 Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions& options)
     : context_(&context),
       plan_(std::move(plan)),
-      choice_(choosePath(plan_, options.path, limitsOf(context.info()), options.lanes)),
+      limits_(limitsOf(context.info())),
+      choice_(chooseRight(options)),
       tables_(context, plan_, tableFormOf(choice_.path)),
       options_(options),
       timers_(context, options.timing),
@@ -31,6 +33,21 @@ Simulation::Simulation(gpu::Context& context, Plan plan, const SimulationOptions
         warnings_.push_back({{}, "one side of the state needs compute shaders: it changes nothing here"});
     parameters = parametersOf(plan_);
     restart();
+}
+
+// Takes what is demanded, else the first path that computes on this driver what it should.
+PathChoice Simulation::chooseRight(const SimulationOptions& options) {
+    for (;;) {
+        const PathChoice choice = choosePath(plan_, options.path, limits_, options.lanes);
+        if (options.path != Path::automatic || options.lanes != Lanes::automatic) return choice;
+        // Contact as compute shaders was never found wrong, and a CPU rasteriser compiles it for seconds.
+        const bool contact = plan_.contact.any() && choice.path != Path::fused;
+        const CheckedPart part = contact ? CheckedPart::contact : CheckedPart::step;
+        const std::string why = selfCheck(*context_, choice.path, part);
+        if (why.empty()) return choice;
+        warnings_.push_back({{}, concat("the execution path ", name(choice.path), " is not taken: ", why)});
+        limits_.wrong[size_t(choice.path)] = why;
+    }
 }
 
 std::unique_ptr<ExecutionPath> Simulation::makePath() {
@@ -51,7 +68,7 @@ std::unique_ptr<ExecutionPath> Simulation::makePath() {
         return fused();
     } catch (const Error& error) {
         try {
-            choice_ = choosePath(plan_, Path::fragments, limitsOf(context_->info()));
+            choice_ = choosePath(plan_, Path::fragments, limits_);
         } catch (const Error&) {
             throw error;
         }

@@ -102,6 +102,7 @@ class Simulation {
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits
 
   private:
+    PathChoice chooseRight(const SimulationOptions& options);
     std::unique_ptr<ExecutionPath> makePath();
     void goOn(double time, int frames, double step);
     void stopWhereItRanAway(bool waits);
@@ -109,10 +110,11 @@ class Simulation {
 
     gpu::Context* context_;
     Plan plan_;
+    std::vector<Warning> warnings_;
+    PathLimits limits_;
     PathChoice choice_;
     Tables tables_;
     SimulationOptions options_;
-    std::vector<Warning> warnings_;
     gpu::PassTimers timers_;
     std::unique_ptr<ExecutionPath> path_;
     double time_ = 0;  // s
