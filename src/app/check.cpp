@@ -273,9 +273,9 @@ bool isShipped(const Molecule& molecule) {
                                        ignored);
 }
 
-Verdict checkScene(const std::string& file) {
+Verdict checkScene(const std::string& file, bool lenient) {
     FieldWatch watch;
-    const Scene scene = readScene(file, watch.baking());
+    const Scene scene = readScene(file, watch.baking(), lenient);
     const Plan plan = compile(scene);
     for (const Group& group : scene.groups)
         checkTexture(group.molecule);
@@ -323,7 +323,7 @@ int checkCommand(const Options& options) {
         JsonValue entry = object(key("file", file));
         try {
             keepToSandbox(options, file);
-            Verdict verdict = isScene(file) ? checkScene(file) : checkMolecule(file);
+            Verdict verdict = isScene(file) ? checkScene(file, options.lenient) : checkMolecule(file);
             std::vector<std::string> warnings;
             for (const Warning& warning : verdict.warnings)
                 warnings.push_back(text(warning));

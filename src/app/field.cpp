@@ -187,7 +187,7 @@ std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warnin
         throw Error(
             "--resolution, --error, --shell and --thickness are of a model file: a scene has its own");
     FieldWatch watch;
-    const Scene scene = readScene(options.files.front(), watch.baking());
+    const Scene scene = readScene(options.files.front(), watch.baking(), options.lenient);
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {
@@ -211,7 +211,9 @@ std::vector<BakedField> fieldsOfModel(const Options& options, std::vector<Warnin
     out.request.error = options.field.error;
     out.request.shell = options.field.shell;
     out.request.thickness = options.field.thickness.value_or(Collider{}.thickness);
-    out.mesh = loadMesh(file);
+    out.mesh = loadMesh(file, options.lenient);
+    for (const std::string& note : out.mesh.notes)
+        warnings.push_back({{file, 0, 0, {}}, note});
     FieldWatch watch;
     try {
         out.field = distanceFieldOf(out.mesh, out.request, watch.baking(), warnings);

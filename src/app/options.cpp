@@ -23,6 +23,12 @@ void addSandbox(CLI::App& command, Options& options) {
                      "Open nothing outside the file's own folder and the shipped data, links followed");
 }
 
+void addLenient(CLI::App& command, Options& options) {
+    section(command, execution);
+    command.add_flag("--lenient", options.lenient,
+                     "Read models of which shape, place or mass is lost, and warn of it");
+}
+
 }  // namespace
 
 void addScene(CLI::App& command, Options& options) {
@@ -274,6 +280,9 @@ static void declare(CLI::App& app, Options& options) {
         addSandbox(*app.get_subcommand(name), options);
     for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
         addSandbox(*command, options);
+    for (const char* name : {"run", "check", "explain", "measure", "field", "export", "edit"})
+        addLenient(*app.get_subcommand(name), options);
+    addLenient(*app.get_subcommand("molecule")->get_subcommand("from-mesh"), options);
     // Last, so that commands do not take it over.
     app.footer(
         "shoal COMMAND --help has the options of a command.\n"

@@ -213,6 +213,7 @@ class Maker {
         : options_(options), mesh_(mesh), shape_(shape) {}
 
     MadeMolecule run() {
+        made_.notes = mesh_.notes;
         if (shape_.triangles.size() < mesh_.triangles.size())
             made_.notes.push_back(
                 concat(mesh_.triangles.size() - shape_.triangles.size(), " of ", mesh_.triangles.size(),
@@ -460,7 +461,6 @@ class Maker {
 
     void addSkin() {
         if (options_.images) {
-            made_.notes.insert(made_.notes.end(), mesh_.notes.begin(), mesh_.notes.end());
             made_.image = gatherColors(mesh_, made_.notes);
             if (made_.image) molecule().material.color = glm::dvec3(1);
         }

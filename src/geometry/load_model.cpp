@@ -155,7 +155,8 @@ Mesh loadMesh(const std::string& file, bool lenient) {
     const FileReader readable(file);  // says what is no file, or cannot be opened
     const bool trusted = !environment("SHOAL_TRUST_MODELS").empty();
     Mesh mesh = trusted ? readModel({file, [](uint64_t) {}}) : readConfined(file);
-    if (!lenient && !mesh.losses.empty()) throw Error(Location{file}, mesh.losses.front());
+    if (!lenient && !mesh.losses.empty())
+        throw Error(Location{file}, mesh.losses.front(), " (--lenient reads it all the same)");
     mesh.notes.insert(mesh.notes.begin(), mesh.losses.begin(), mesh.losses.end());
     mesh.losses.clear();
     completeMesh(mesh);

@@ -25,7 +25,7 @@ void apply(const RunRequest& request, Scene& scene) {
 
 Scene readScene(const std::string& file, const RunRequest& request) {
     FieldWatch watch;
-    Scene out = readScene(file, watch.baking());
+    Scene out = readScene(file, watch.baking(), request.lenient);
     apply(request, out);
     checkCounts(out);
     return out;

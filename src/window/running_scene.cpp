@@ -212,7 +212,7 @@ JsonValue RunningScene::json() const {
 
 Scene RunningScene::read(const std::string& text) const {
     FieldWatch baking;
-    Scene out = parseScene(text, original_.file, baking.baking());
+    Scene out = parseScene(text, original_.file, baking.baking(), request_.lenient);
     apply(request_, out);
     return out;
 }

@@ -349,6 +349,7 @@ class Viewer : public WindowLoop {
         request.path = options_.run.path;
         request.lanes = options_.run.lanes;
         request.inPlace = options_.run.inPlace;
+        request.lenient = options_.run.lenient;
         try {
             Loaded loaded = loadScene(file, request);
             auto next = std::make_unique<OpenScene>(std::move(request), context(), std::move(loaded), width(),

@@ -31,7 +31,7 @@ void placeMesh(Mesh& mesh, const Model& model) {
 void load(Model& model, const Where& where, SceneReading& reading) {
     if (!where.given("name")) model.name = std::filesystem::path(model.file).stem().string();
     try {
-        model.mesh = loadMesh(model.file);
+        model.mesh = loadMesh(model.file, reading.lenient);
     } catch (const Error& error) {
         throw Error(where.at("file"), error.what());
     }

@@ -21,6 +21,7 @@ struct SceneReading {
     const std::vector<Model>& models;  // that were read before
     const FieldBaking& baking;
     std::vector<Warning>& warnings;
+    bool lenient = false;  // what is lost of a model is a warning, no error
 };
 
 // Derives a group's capacity from the keys of its life and emitters, unless a file gives it.

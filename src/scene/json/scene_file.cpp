@@ -73,13 +73,13 @@ const Description& describe(const Scene*) {
     return it;
 }
 
-Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking) {
+Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking, bool lenient) {
     const JsonValue root = parseJson(text, file);
     refuseHugeNumbers(root, file);
 
     Scene scene;
     scene.file = file;
-    SceneReading reading{scene.models, baking, scene.warnings};
+    SceneReading reading{scene.models, baking, scene.warnings, lenient};
     describe(&scene).readFile(root, file, scene, &reading);
     if (const JsonValue* comment = root.find("comment")) scene.comment = comment->text;
     JsonReader whole(root, file);
@@ -93,8 +93,8 @@ void checkScene(const Scene& scene) {
     describe(&scene).check(scene, Where(), largestNumber);
 }
 
-Scene readScene(const std::string& file, const FieldBaking& baking) {
-    return parseScene(readFile(file), file, baking);
+Scene readScene(const std::string& file, const FieldBaking& baking, bool lenient) {
+    return parseScene(readFile(file), file, baking, lenient);
 }
 
 // ---- The files that a scene is made of

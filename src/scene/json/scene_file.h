@@ -15,9 +15,11 @@ namespace shoal {
 // Reads a scene with its molecules, models and fields. Every mistake is one Error with file, line, column
 // and JSON path; a mistake inside a file that the scene names is reported at that file.
 // Distance fields are baked here, or taken from where they are kept.
-Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolder(), {}});
+// `lenient`: what is lost of a model is a warning instead (geometry/mesh.h).
+Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolder(), {}},
+                bool lenient = false);
 Scene parseScene(const std::string& text, const std::string& file,
-                 const FieldBaking& baking = {cacheFolder(), {}});
+                 const FieldBaking& baking = {cacheFolder(), {}}, bool lenient = false);
 
 // The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
 // of what is wrong and no file. What only files say (which keys go together) is not asked.
