@@ -29,6 +29,10 @@ find_path(RAPIDJSON_INCLUDE rapidjson/reader.h REQUIRED)
 add_library(RapidJSON INTERFACE IMPORTED)
 target_include_directories(RapidJSON SYSTEM INTERFACE ${RAPIDJSON_INCLUDE})
 
+find_path(TINY_OBJ_INCLUDE tiny_obj_loader.h REQUIRED)  # its library may be built for floats only
+add_library(TinyObjHeader INTERFACE IMPORTED)
+target_include_directories(TinyObjHeader SYSTEM INTERFACE ${TINY_OBJ_INCLUDE})
+
 # Headers of EGL and OSMesa only: the libraries are opened at run time.
 find_path(EGL_INCLUDE EGL/egl.h REQUIRED)
 add_library(GLHeaders INTERFACE IMPORTED)

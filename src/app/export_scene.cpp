@@ -39,7 +39,7 @@ std::vector<DrawnMesh> meshesNow(const Simulation& simulation, const Scene& scen
         out.push_back(std::move(mesh));
     }
     for (const Model& model : scene.models)
-        if (model.draw) out.push_back(exchange::modelMesh(model));
+        if (model.draw && !model.mesh.triangles.empty()) out.push_back(exchange::modelMesh(model));
     return out;
 }
 

@@ -189,7 +189,7 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
     const ExportOptions& asked = options.animation;
     UsdStage stage(asked.usd, scene.frameRate);
     for (const Model& model : scene.models)
-        if (model.draw) stage.add(exchange::modelMesh(model));
+        if (model.draw && !model.mesh.triangles.empty()) stage.add(exchange::modelMesh(model));
     stage.add(scene.camera);
     const std::vector<Rigidity> rigid = rigidGroups(asked, scene, simulation);
     std::vector<UsdGroup> groups;

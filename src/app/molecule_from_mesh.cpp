@@ -220,7 +220,9 @@ int moleculeFromMeshCommand(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     checkOutput(options.molecule);
     const std::string& file = options.files.front();
-    return makeOf(file, loadMesh(file, options.lenient), options, start);
+    const Mesh mesh = loadMesh(file, options.lenient);
+    if (mesh.triangles.empty()) throw Error(Location{file}, noTriangles);
+    return makeOf(file, mesh, options, start);
 }
 
 // Every vertex of the shape is simulated, and its triangles are drawn.

@@ -47,7 +47,9 @@ void addMaking(CLI::App& command, Options& options) {
 void addFromMesh(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     FromMesh& make = molecule.fromMesh;
-    addFile(command, "mesh", options.files, "Mesh of any format that Assimp reads")->required()->expected(1);
+    addFile(command, "mesh", options.files, "Mesh as OBJ, or of any format that Assimp reads")
+        ->required()
+        ->expected(1);
     addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
     addWhole(command, "--vertices", make.vertices,
              "At most so many are simulated (default 24, of a cage 40)");

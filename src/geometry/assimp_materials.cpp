@@ -8,6 +8,7 @@
 #include <assimp/scene.h>
 
 #include "core/error.h"
+#include "geometry/classic_material.h"
 #include "geometry/mesh.h"
 #include "geometry/model_images.h"
 #include "geometry/model_reader.h"
@@ -99,8 +100,7 @@ class MaterialReader {
         } else if (const auto gloss = share(AI_MATKEY_GLOSSINESS_FACTOR)) {
             out.roughness = 1 - *gloss;
         } else if (const auto exponent = number(AI_MATKEY_SHININESS); exponent && *exponent > 0) {
-            // Blinn and Phong's exponent n is as wide a lobe as roughness^4 = 2 / (n + 2) [Karis 2013].
-            out.roughness = std::clamp(std::pow(2 / (*exponent + 2), 0.25), 0.2, 1.0);
+            out.roughness = roughnessOfExponent(*exponent);
         }
         out.roughnessImage = imageOf("roughness", {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS});
         if (out.roughnessImage < 0 &&
@@ -117,10 +117,7 @@ class MaterialReader {
             out.color.a *= 1 - through;
             out.refraction = 1.5;
         }
-        if (out.alpha != SurfaceMaterial::Alpha::blend) return;
-        constexpr double densest = 3;  // diamond has 2.4
-        const double index = number(AI_MATKEY_REFRACTI).value_or(1);
-        if (index > 1 && index <= densest) out.refraction = index;
+        setRefraction(out, number(AI_MATKEY_REFRACTI).value_or(1));
     }
 
     void readAlpha(SurfaceMaterial& out) {
@@ -134,24 +131,14 @@ class MaterialReader {
             if (out.alpha != SurfaceMaterial::Alpha::opaque) out.color.a = opacity;
             return;
         }
-        if (opacity <= 0) {
-            note("it is wholly transparent in the file, and drawn opaque");
-        } else if (opacity < 1) {
-            out.alpha = SurfaceMaterial::Alpha::blend;
-            out.color.a = opacity;
-        }
         const int mask = imageOf("opacity", {aiTextureType_OPACITY});
-        if (mask >= 0) out.colorImage = images_.masked(out.colorImage, mask);
-        if (out.alpha == SurfaceMaterial::Alpha::opaque && out.colorImage >= 0 &&
-            anyTransparent(mesh_.images[size_t(out.colorImage)]))
-            out.alpha = SurfaceMaterial::Alpha::cut;
+        setOpacity(out, opacity, mask, images_, mesh_.images, [&](const std::string& what) { note(what); });
     }
 
     void tellDropped() {
-        std::string dropped;
-        const auto drop = [&](aiTextureType type, const char* name) {
-            if (material_->GetTextureCount(type) > 0)
-                dropped += (dropped.empty() ? "" : ", ") + std::string(name);
+        DroppedImages dropped;
+        const auto drop = [&](aiTextureType type, const char* kind) {
+            if (material_->GetTextureCount(type) > 0) dropped.add(kind);
         };
         drop(aiTextureType_AMBIENT_OCCLUSION, "occlusion");
         drop(aiTextureType_LIGHTMAP, "occlusion");
@@ -163,7 +150,7 @@ class MaterialReader {
         drop(aiTextureType_CLEARCOAT, "clear coat");
         drop(aiTextureType_SHEEN, "sheen");
         drop(aiTextureType_TRANSMISSION, "transmission");
-        if (!dropped.empty()) note(concat("its images of ", dropped, " are not drawn"));
+        if (!dropped.kinds.empty()) note(dropped.note());
     }
 
     // The number of the first image of one of these types; -1: there is none, or it cannot be read.

@@ -142,6 +142,7 @@ void keep(const fs::path& path, const std::string& key, const DistanceField& fie
 
 DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
                               std::vector<Warning>& warnings) {
+    if (mesh.triangles.empty()) throw Error(noTriangles);
     if (baking.cache.empty()) return bakeDistanceField(mesh, request, baking.progress);
     const std::string key = keyOf(mesh, request);
     const fs::path path = fs::path(baking.cache) / (key + extension);

@@ -1,14 +1,13 @@
 #include "geometry/doubled_walls.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
 
 #include "geometry/closest_point.h"
+#include "geometry/opposite_walls.h"
 
 namespace shoal {
 
@@ -24,10 +23,7 @@ struct Piece {
 
 class Pieces {
   public:
-    explicit Pieces(const Mesh& mesh) : mesh_(mesh), doubled_(mesh.triangles.size(), 0) {
-        markTwins();
-        gather();
-    }
+    explicit Pieces(const Mesh& mesh) : mesh_(mesh), doubled_(coincidentTriangles(mesh)) { gather(); }
 
     // Larger ones first, so that of two that lie on one another the larger stays.
     std::vector<char> run() {
@@ -70,16 +66,6 @@ class Pieces {
         return {mesh_.weld[size_t(t.x)], mesh_.weld[size_t(t.y)], mesh_.weld[size_t(t.z)]};
     }
     const glm::dvec3& place(int vertex) const { return mesh_.weldedPositions[size_t(vertex)]; }
-
-    void markTwins() {
-        std::set<std::array<int, 3>> seen;
-        for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
-            const glm::ivec3 t = welded(i);
-            std::array<int, 3> key = {t.x, t.y, t.z};
-            std::sort(key.begin(), key.end());
-            if (!seen.insert(key).second) doubled_[i] = 1;
-        }
-    }
 
     void gather() {
         std::vector<int> root(mesh_.weldedPositions.size());

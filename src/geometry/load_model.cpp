@@ -14,9 +14,13 @@ namespace shoal {
 namespace {
 
 Mesh readModel(const ModelFile& model) {
-    Mesh mesh = readWithAssimp(model);
+    const std::string ending = lowerExtension(model.name);
+    Mesh mesh = ending == ".obj" ? readObj(model) : ending == ".xyz" ? readXyz(model) : readWithAssimp(model);
+    if (mesh.positions.empty()) throw Error(Location{model.name}, noTriangles);
     if (mesh.triangles.empty())
-        throw Error(Location{model.name}, "has no triangles, expected a mesh with at least one");
+        mesh.notes.push_back(concat("it is a cloud of ",
+                                    many(int64_t(mesh.positions.size()), "point", "points"),
+                                    " without triangles, of which nothing is drawn"));
     return mesh;
 }
 
@@ -81,7 +85,7 @@ void checkWhole(const Mesh& mesh, const Location& location) {
     const auto fits = [&](int first, int triangles) {
         return first >= 0 && triangles >= 0 && size_t(first) + size_t(triangles) <= mesh.triangles.size();
     };
-    bool whole = count <= mostElements && mesh.triangles.size() <= mostElements && !mesh.triangles.empty() &&
+    bool whole = count <= mostElements && mesh.triangles.size() <= mostElements && count > 0 &&
                  mesh.normals.size() == count && (mesh.colors.empty() || mesh.colors.size() == count) &&
                  (mesh.uvs.empty() || mesh.uvs.size() == count) &&
                  (mesh.bones.empty() || mesh.bones.size() == count);
@@ -150,6 +154,25 @@ Mesh readConfined(const std::string& file) {
 }
 
 }  // namespace
+
+void tellOfRounding(Mesh& mesh) {
+    if (mesh.positions.empty()) return;
+    glm::dvec3 low = mesh.positions.front(), high = low;
+    for (const glm::dvec3& p : mesh.positions)
+        low = glm::min(low, p), high = glm::max(high, p);
+    const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
+    const double farthestAway = std::max({reach.x, reach.y, reach.z}), size = glm::distance(low, high);
+    const double rounding = std::ldexp(farthestAway, -24);  // half the way to the next number, at most
+    constexpr double told = 1e-6, lost = 1e-4;              // of the size; vertices within `told` are one
+    if (!(rounding > told * size)) return;
+    (rounding > lost * size ? mesh.losses : mesh.notes)
+        .push_back(
+            concat("its coordinates reach ", farthestAway,
+                   " m, too far for the single precision in which this format is read: they are rounded "
+                   "by up to ",
+                   rounding, " m, of a size of ", size,
+                   " m; move it to the origin, or save it as OBJ, which is read in double precision"));
+}
 
 Mesh loadMesh(const std::string& file, bool lenient) {
     const FileReader readable(file);  // says what is no file, or cannot be opened

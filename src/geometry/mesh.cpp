@@ -106,6 +106,9 @@ void completeMesh(Mesh& mesh) {
             mesh.weldedNormals[size_t(mesh.weld[size_t(t[i])])] += normal;
         }
     }
+    if (mesh.triangles.empty() && !mesh.normals.empty())  // a cloud of points has what its file says
+        for (size_t v = 0; v < mesh.normals.size(); ++v)
+            mesh.weldedNormals[size_t(mesh.weld[v])] += mesh.normals[v];
     const glm::dvec3 up(0, 1, 0);
     for (glm::dvec3& n : mesh.weldedNormals)
         n = unit(n, up);

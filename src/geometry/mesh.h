@@ -73,15 +73,19 @@ struct Mesh {
     glm::dvec3 low{0}, high{0};  // bounding box
 };
 
+// What is said of a cloud of points where a surface is needed.
+constexpr const char* noTriangles = "has no triangles, expected a mesh with at least one";
+
 constexpr int largestModelImage = 2048;  // larger ones are halved when they are read
 
 // All triangles of the file with node transforms applied, one Mesh::Object per node that has triangles.
-// Polygons are cut into triangles; lines and points are ignored. Vertex colours become linear: OBJ and PLY
+// Polygons are cut into triangles; lines and points are ignored, unless there is nothing else: then the mesh
+// is the cloud of the file's points, without triangles. Vertex colours become linear: OBJ and PLY
 // files hold them in sRGB by custom, glTF and the others linear. Images are embedded, or lie where the file
 // says; a path that leads nowhere is looked for by its name beside the model. The file is read in a child
 // process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty. Error: no such file, not
-// readable as a model within limits of time and memory, a position that is not finite or beyond 1e30 m, no
-// triangles, and where `lenient` is not set any loss.
+// readable as a model within limits of time and memory, a position that is not finite or beyond 1e30 m,
+// neither triangles nor points, and where `lenient` is not set any loss.
 Mesh loadMesh(const std::string& file, bool lenient = false);
 
 // Fills what follows from positions and triangles: missing normals (zero or an empty array), the weld

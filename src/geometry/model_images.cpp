@@ -97,6 +97,26 @@ int ModelImages::masked(int colorImage, int mask) {
     return int(images_.size()) - 1;
 }
 
+int ModelImages::roughAndMetallic(int roughness, int metallic) {
+    if (roughness == metallic) return roughness;  // whose channels are made so
+    Image out = images_[size_t(metallic >= 0 ? metallic : roughness)];
+    const auto green = [&](int number, size_t x, size_t y) -> uint8_t {
+        if (number < 0) return 255;
+        const Image& from = images_[size_t(number)];
+        const size_t u = x * size_t(from.width) / size_t(out.width);
+        const size_t v = y * size_t(from.height) / size_t(out.height);
+        return from.pixels[(v * size_t(from.width) + u) * 4 + 1];
+    };
+    for (size_t y = 0; y < size_t(out.height); ++y)
+        for (size_t x = 0; x < size_t(out.width); ++x) {
+            uint8_t* texel = &out.pixels[(y * size_t(out.width) + x) * 4];
+            texel[1] = green(roughness, x, y);
+            texel[2] = green(metallic, x, y);
+        }
+    images_.push_back(std::move(out));
+    return int(images_.size()) - 1;
+}
+
 // Paths are of the machine on which the model was made, whose names may not tell "A" from "a".
 fs::path ModelImages::find(std::string path) const {
     std::replace(path.begin(), path.end(), '\\', '/');

@@ -30,6 +30,9 @@ class ModelImages {
     // Returns the number of an image with the colours of one image (-1: white) and the alpha of `mask`, or
     // the brightness of `mask` where that has no alpha.
     int masked(int colorImage, int mask);
+    // Returns the number of an image with the green of one image (-1: full) and the green of `metallic` (-1:
+    // full) as its blue, as SurfaceMaterial::roughnessImage wants it; -1: there is neither.
+    int roughAndMetallic(int roughness, int metallic);
 
   private:
     std::filesystem::path find(std::string path) const;

@@ -25,6 +25,12 @@ struct ModelFile {
 };
 
 Mesh readWithAssimp(const ModelFile& model);
+Mesh readObj(const ModelFile& model);
+Mesh readXyz(const ModelFile& model);
+
+// For readers that hold coordinates in single precision: tells, as a note or a loss, where they lie so far
+// from the origin that it rounds them by a part of the model's size.
+void tellOfRounding(Mesh& mesh);
 
 constexpr size_t mostElements = size_t{1} << 28;  // vertices, and triangles
 constexpr double farthest = 1e30;                 // m; beyond, volumes and their squares would overflow

@@ -1,9 +1,10 @@
-// Reads what no reader of our own reads (OBJ, PLY, …: load_model.cpp chooses) through Assimp.
+// Reads what no reader of our own reads (load_model.cpp chooses) through Assimp.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <optional>
 #include <set>
 
 #include <assimp/DefaultIOSystem.h>
@@ -15,6 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/srgb.h"
+#include "geometry/announced.h"
 #include "geometry/assimp_materials.h"
 #include "geometry/model_reader.h"
 
@@ -33,7 +35,7 @@ glm::dvec3 vector(const aiVector3D& v) {
 
 bool holdsSrgb(const std::string& file) {
     const std::string ending = lowerExtension(file);
-    return ending == ".obj" || ending == ".ply";
+    return ending == ".ply";
 }
 
 // Walks the nodes, appending their meshes in scene axes.
@@ -67,6 +69,7 @@ class Collector {
 
     Mesh mesh;
     bool anyColors = false, anyUvs = false;
+    bool points = false;  // takes meshes without triangles
 
   private:
     Error fail(const std::string& message) const { return Error(Location{file_}, message); }
@@ -79,7 +82,7 @@ class Collector {
     }
 
     void append(const aiMesh& part, const glm::dmat4& transform) {
-        if (!(part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) return;
+        if (!points && !(part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) return;
         if (mesh.positions.size() + part.mNumVertices > mostElements)
             throw fail("has more than 2^28 vertices, the most that is read");
         if (mesh.triangles.size() + part.mNumFaces > mostElements)
@@ -224,7 +227,16 @@ Mesh readWithAssimp(const ModelFile& model) {
 
     Collector collector(*scene, model.name);
     collector.visit(*scene->mRootNode, glm::dmat4(1));
+    if (collector.mesh.triangles.empty()) {  // a cloud of points
+        collector.points = true;
+        collector.visit(*scene->mRootNode, glm::dmat4(1));
+    }
     Mesh mesh = std::move(collector.mesh);
+    if (const std::optional<size_t> announced = announcedTriangles(model.name);
+        announced && *announced != mesh.triangles.size())
+        mesh.losses.push_back(concat("its text has ", many(int64_t(*announced), "triangle", "triangles"),
+                                     ", and its reader gives ", mesh.triangles.size()));
+    tellOfRounding(mesh);
     if (!collector.anyColors) mesh.colors.clear();
     if (!collector.anyUvs) mesh.uvs.clear();
     if (mesh.boneNames.empty()) mesh.bones.clear();

@@ -45,7 +45,8 @@ const Description& describe(const Placement*) {
         Describe<P>("place", "Where molecules start, and how they stand.")
             .word("on", &P::kind, {"vertices", "surface", "volume", "grid", "list"},
                   {"",
-                   "Random vertices of a model, each once before any twice; random points of its surface, "
+                   "Random vertices of a model, or points of a cloud, each once before any twice; random "
+                   "points of its surface, "
                    "evenly by area; random points of a box; a grid, x fastest, then y, then z; or a list."})
             .needed()
             .byHand<const SceneReading>("model", {}, {"the name of a model", "The model."}, readModel)

@@ -59,7 +59,7 @@ class Selector {
         : mesh_(mesh), selection_(selection), inObject_(trianglesOf(mesh, selection.object)) {}
 
     Selected run() {
-        mask_.assign(mesh_.weldedPositions.size(), 0);
+        mask_.assign(mesh_.weldedPositions.size(), mesh_.triangles.empty() ? 1 : 0);  // a cloud of points
         for (const glm::ivec3& t : mesh_.triangles)  // vertices without a triangle carry nothing
             for (int i = 0; i < 3; ++i)
                 mask_[welded(t[i])] = 1;

@@ -7,6 +7,7 @@
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
+using Catch::Approx;  // which the older version declares there
 namespace Catch {
 using Generators::from_range;
 using Matchers::StartsWith;

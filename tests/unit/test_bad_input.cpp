@@ -80,7 +80,7 @@ TEST_CASE("bad input: files that a scene names", "[badInput]") {
     wrong.scratch().write("bad.fga", "1,1,1,\n0,0,0,\n1,x,1");
     CHECK_THAT(wrong.scene("wind.fga", "bad.fga"), Contains("bad.fga:3:3: expected a number, found \"x\""));
     wrong.scratch().write("bad.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
-    CHECK_THAT(wrong.scene("hill.obj", "bad.obj"), Contains("bad.obj: has no triangles, expected"));
+    CHECK_THAT(wrong.scene("hill.obj", "bad.obj"), Contains("\"hill\" has no triangles, expected"));
 }
 
 TEST_CASE("bad input: waves and hurricanes", "[badInput]") {

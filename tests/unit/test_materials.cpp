@@ -95,10 +95,18 @@ TEST_CASE("what is blended refracts by its index, what is opaque does not", "[mo
 
 TEST_CASE("a model without materials has none, whatever the reader puts in", "[model][material]") {
     const Scratch scratch;
-    const Mesh mesh = loadMesh(scratch.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
-    CHECK(materialOf(mesh).color == glm::dvec4(1));
-    CHECK(materialOf(mesh).roughness == 0.9);
-    CHECK(mesh.notes.empty());
+    const Mesh obj = loadMesh(scratch.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
+    REQUIRE(obj.parts.size() == 1);
+    CHECK(obj.parts[0].look == -1);
+    CHECK(obj.materials.empty());
+    CHECK(obj.notes.empty());
+    const Mesh stl = loadMesh(
+        scratch.write("m.stl",
+                      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
+                      "endloop\nendfacet\nendsolid a\n"));
+    CHECK(materialOf(stl).color == glm::dvec4(1));
+    CHECK(materialOf(stl).roughness == 0.9);
+    CHECK(stl.notes.empty());
 }
 
 TEST_CASE("images are found by the name that another machine gave them", "[model][material]") {

@@ -261,3 +261,24 @@ TEST_CASE("an empty selection says what matched", "[placement]") {
     scene.groups[0].place.select.thinnest = 0.5;
     CHECK_THROWS_WITH(place(scene, 0), Catch::Contains("have no thickness: the surface is open there"));
 }
+
+TEST_CASE("the points of a cloud are places, along the normals that its file has", "[placement]") {
+    Mesh cloud;
+    cloud.positions = {{0, 0, 0}, {5, 0, 0}, {0, 7, 0}, {0, 7, 0}};
+    cloud.normals = {{1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 1}};
+    completeMesh(cloud);
+    std::set<double> sums;
+    for (const Instance& instance : place(onModel(cloud, Placement::Kind::vertices, 3), 0)) {
+        sums.insert(instance.position.x + instance.position.y);
+        const glm::dvec3 normal = instance.position.y > 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+        CHECK(glm::dot(axisOf(instance), normal) == Approx(1));
+    }
+    CHECK(sums == std::set<double>{0, 5, 7});
+    // What a selection asks of triangles, a cloud does not have.
+    Scene scene = onModel(cloud, Placement::Kind::vertices, 3);
+    scene.groups[0].place.select.minHeight = 1;
+    for (const Instance& instance : place(scene, 0))
+        CHECK(instance.position.y == 7);
+    scene.groups[0].place.select.thinnest = 0.5;
+    CHECK_THROWS_AS(place(scene, 0), Error);
+}

@@ -34,6 +34,7 @@ HeightFieldCollider heightsOfModel(const HeightSource& source, const Where& wher
     const Model& model = reading.models[size_t(needModel(where, "model", source.model, reading.models))];
     const int resolution = source.resolution;
     const Mesh& mesh = model.mesh;
+    if (mesh.triangles.empty()) throw Error(where.at("model"), "model \"", model.name, "\" ", noTriangles);
     if (!(mesh.low.x < mesh.high.x && mesh.low.z < mesh.high.z))
         throw Error(where.at("model"),
                     "expected a model that covers an area in x and z, found one seen edge-on");

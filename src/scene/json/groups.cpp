@@ -270,7 +270,11 @@ void checkModelsOf(const Group& group, const std::vector<Model>& models, const W
     if ((group.count != 0 || !group.life) && group.place.onModel()) {
         const Where place = where.in("place");
         checkModelIndex(group.place.model, models, place.at("model"));
-        checkObject(group.place.select, models[size_t(group.place.model)], place.in("select"));
+        const Model& model = models[size_t(group.place.model)];
+        if (group.place.kind != Placement::Kind::vertices && model.mesh.triangles.empty())
+            throw Error(place.at("model"), "model \"", model.name, "\" ", noTriangles,
+                        ", or \"on\": \"vertices\"");
+        checkObject(group.place.select, model, place.in("select"));
     }
     if (!group.life) return;
     for (size_t i = 0; i < group.life->emitters.size(); ++i)

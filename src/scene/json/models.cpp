@@ -43,8 +43,8 @@ void load(Model& model, const Where& where, SceneReading& reading) {
 // Checks a mesh made in code; the readers of models see to theirs.
 void checkMesh(const Mesh& mesh, const Where& where) {
     const size_t count = mesh.positions.size();
-    if (mesh.triangles.empty() || mesh.normals.size() != count || mesh.weld.size() != count)
-        throw Error(where.here(), "has no triangles, expected a mesh with at least one");
+    if (mesh.positions.empty() || mesh.normals.size() != count || mesh.weld.size() != count)
+        throw Error(where.here(), noTriangles);
     for (const glm::ivec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             if (t[i] < 0 || size_t(t[i]) >= count)
@@ -74,7 +74,7 @@ const Description& describe(const Model*) {
                         "A mesh that stands still: it is drawn, carries molecules, and makes colliders.")
             .byHand("file", {.notEmpty = true},
                     {"the name of a file",
-                     "Any format that Assimp reads, within [limits of time and "
+                     "OBJ, XYZ (points), or any format that Assimp reads, within [limits of time and "
                      "memory](architecture.md#errors); transforms of nodes are applied, "
                      "and vertices are welded by position. [Materials](#materials-of-models) come with it."},
                     readFileOf)

@@ -1,0 +1,15 @@
+// What a text says that a model consists of, which a reader that drops lines does not. For read_assimp.cpp
+// alone.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace shoal {
+
+// Returns the triangles that a model has, its polygons cut: of OFF by its lines, of STL as text by its
+// "facet"s. None: the file is of another format, binary, or not understood here.
+std::optional<size_t> announcedTriangles(const std::string& file);
+
+}  // namespace shoal
