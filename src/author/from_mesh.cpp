@@ -67,14 +67,21 @@ Mesh withoutStrays(Mesh mesh) {
     return mesh;
 }
 
-// In metres, where it is wanted.
+// In metres, where it is wanted. A mesh that lies at map coordinates comes to the origin: what is single
+// precision would not hold its shape there.
 Mesh placed(const Mesh& source, const FromMesh& options) {
     Mesh mesh = withoutStrays(source);
     const glm::dvec3 extent = mesh.high - mesh.low;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0)) throw Error("all vertices of the mesh lie in one place");
     const double scale = options.size ? *options.size / longest : 1;
-    const glm::dvec3 origin = options.centre ? 0.5 * (mesh.low + mesh.high) : glm::dvec3(0);
+    const glm::dvec3 middle = 0.5 * (mesh.low + mesh.high);
+    constexpr double farAway = 1000;  // sizes
+    const bool tooFar = !options.centre && glm::length(middle) > farAway * longest;
+    if (tooFar)
+        mesh.notes.push_back(concat("the mesh lies ", glm::length(middle), " m from the origin, and is ",
+                                    longest, " m long: its middle was put at the origin"));
+    const glm::dvec3 origin = options.centre || tooFar ? middle : glm::dvec3(0);
     for (std::vector<glm::dvec3>* all : {&mesh.positions, &mesh.weldedPositions})
         for (glm::dvec3& p : *all)
             p = scale * (p - origin);

@@ -64,7 +64,7 @@ struct FromMesh {
     std::optional<double> density;    // kg/m^3, instead of the material's
     std::optional<double> frequency;  // Hz, the lowest; nothing: from the material
     std::optional<double> damping;    // ratio of the lowest mode; nothing: the material's
-    bool centre = false;              // the middle of its box to the origin
+    bool centre = false;              // the middle of its box to the origin, as of a mesh far away
     bool skin = true;
     bool images = true;                // the skin is drawn with the colours of the mesh's materials
     std::optional<int> skinTriangles;  // the skin is simplified to about so many; nothing: all

@@ -1,2 +1,5 @@
-#define TINYOBJLOADER_IMPLEMENTATION
 #include "geometry/tiny_obj.h"
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+#undef TINYOBJLOADER_IMPLEMENTATION

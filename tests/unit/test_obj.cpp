@@ -359,8 +359,15 @@ TEST_CASE("a sheet at map coordinates is the molecule that it is at the origin",
     CHECK(far.triangles == near.triangles);
     FromMesh options;
     options.name = "sheet";
-    const MadeMolecule a = makeMolecule(near, options), b = makeMolecule(far, options);
-    CHECK(a.notes == b.notes);
+    options.centre = true;
+    const MadeMolecule a = makeMolecule(near, options);
+    options.centre = false;
+    const MadeMolecule b = makeMolecule(far, options);
+    REQUIRE(a.notes.size() + 1 == b.notes.size());
+    CHECK_THAT(b.notes[0],
+               Catch::Contains("m from the origin, and is 0.2 m long: its middle was put at the origin"));
+    CHECK_THAT(a.notes[0], Catch::Contains("48 border edges"));
+    CHECK_THAT(b.notes[1], Catch::Contains("48 border edges"));
     REQUIRE(a.molecule.vertices.size() == b.molecule.vertices.size());
     REQUIRE(a.molecule.skin.vertices.size() == b.molecule.skin.vertices.size());
     for (size_t i = 0; i < a.molecule.vertices.size(); ++i)

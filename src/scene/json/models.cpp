@@ -1,4 +1,5 @@
 // "models": meshes that stand still.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -38,6 +39,16 @@ void load(Model& model, const Where& where, SceneReading& reading) {
     for (const std::string& note : model.mesh.notes)
         reading.warnings.push_back({where.at("file"), concat("model \"", model.name, "\": ", note)});
     placeMesh(model.mesh, model);
+    const glm::dvec3 reach = glm::max(glm::abs(model.mesh.low), glm::abs(model.mesh.high));
+    const double size = glm::distance(model.mesh.low, model.mesh.high);
+    const double rounding = std::ldexp(std::max({reach.x, reach.y, reach.z}), -24);
+    constexpr double seen = 1e-4;  // of the size
+    if (rounding > seen * size && size > 0)
+        reading.warnings.push_back(
+            {where.at("file"),
+             concat("model \"", model.name, "\" is ", size, " m large and lies so far from the origin that ",
+                    "single precision rounds its places by up to ", rounding,
+                    " m: give it a \"position\" that takes it there")});
 }
 
 // Checks a mesh made in code; the readers of models see to theirs.
