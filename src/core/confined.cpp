@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <new>
 
 #include <fcntl.h>
@@ -72,12 +73,13 @@ void keepOnly(int pipe) {
 #endif
 }
 
-[[noreturn]] void workInChild(ToParent& parent, const std::function<void(ToParent&)>& work) {
+[[noreturn]] void workInChild(ToParent& parent, const std::string& file,
+                              const std::function<void(ToParent&)>& work) {
     try {
         parent.limit();
         work(parent);
     } catch (const Error& error) {
-        parent.refuse(error.message());
+        parent.refuse(error.message(), error.location().file == file ? error.location().line : 0);
     } catch (const std::bad_alloc&) {
         _exit(outOfMemory);
     } catch (const std::length_error&) {
@@ -105,7 +107,8 @@ void ToParent::opened(uint64_t fileBytes) {
     limit();
 }
 
-void ToParent::refuse(const std::string& message) {
+void ToParent::refuse(const std::string& message, int line) {
+    record('L', nullptr, uint64_t(line));
     record('E', message.data(), std::min(message.size(), longestMessage));
 }
 
@@ -147,7 +150,7 @@ Confined::Confined(const Location& file, const ConfinedLimits& limits,
         keepOnly(pipe);
         std::set_new_handler([] { _exit(outOfMemory); });
         ToParent to(pipe, limits, memoryBefore);
-        workInChild(to, work);
+        workInChild(to, file.file, work);
     }
     const int why = errno;
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
@@ -183,6 +186,8 @@ uint64_t Confined::nextArray(size_t elementBytes) {
         read(&bytes, sizeof bytes);
         if (kind == 'F') {
             fileBytes_ += double(bytes);
+        } else if (kind == 'L' && bytes <= uint64_t(std::numeric_limits<int>::max())) {
+            file_.line = int(bytes);
         } else if (kind == 'E' && bytes <= longestMessage) {
             std::string message(size_t(bytes), ' ');
             read(message.data(), message.size());

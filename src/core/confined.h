@@ -48,7 +48,7 @@ class ToParent {
         static_assert(std::is_trivially_copyable_v<T>);
         record('A', array.data(), array.size() * sizeof(T));
     }
-    void refuse(const std::string& message);
+    void refuse(const std::string& message, int line = 0);  // of the file; 0: not known
     void limit() const;
 
   private:
@@ -62,7 +62,8 @@ class ToParent {
 
 class Confined {
   public:
-    // Starts `work` in a child. An Error that it throws comes out of get(), located at `file`.
+    // Starts `work` in a child. An Error that it throws comes out of get(), located at `file`, in its line
+    // where it is of that file.
     Confined(const Location& file, const ConfinedLimits& limits, const std::function<void(ToParent&)>& work);
     ~Confined();  // ends the child, if it is still at work, and takes its status
     Confined(const Confined&) = delete;

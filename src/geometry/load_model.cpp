@@ -14,8 +14,12 @@ namespace shoal {
 namespace {
 
 Mesh readModel(const ModelFile& model) {
+    static constexpr std::pair<const char*, Mesh (*)(const ModelFile&)> readers[] = {
+        {".obj", readObj}, {".ply", readPly}, {".xyz", readXyz}};
     const std::string ending = lowerExtension(model.name);
-    Mesh mesh = ending == ".obj" ? readObj(model) : ending == ".xyz" ? readXyz(model) : readWithAssimp(model);
+    const auto own = std::find_if(std::begin(readers), std::end(readers),
+                                  [&](const auto& reader) { return ending == reader.first; });
+    Mesh mesh = own == std::end(readers) ? readWithAssimp(model) : own->second(model);
     if (mesh.positions.empty()) throw Error(Location{model.name}, noTriangles);
     if (mesh.triangles.empty())
         mesh.notes.push_back(concat("it is a cloud of ",

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include <glm/glm.hpp>
 
@@ -24,6 +25,7 @@ struct ModelFile {
     std::function<void(uint64_t)> opened;
 };
 
+Mesh readPly(const ModelFile& model);
 Mesh readWithAssimp(const ModelFile& model);
 Mesh readObj(const ModelFile& model);
 Mesh readXyz(const ModelFile& model);
@@ -37,6 +39,14 @@ constexpr double farthest = 1e30;                 // m; beyond, volumes and thei
 
 inline bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+constexpr std::string_view blanks = " \t\n\r\v\f";
+// Returns a text without the blanks at its ends.
+inline std::string_view trimmed(std::string_view text) {
+    const size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
 }  // namespace shoal

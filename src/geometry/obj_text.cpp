@@ -5,17 +5,11 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/model_reader.h"
+
 namespace shoal {
 
 namespace {
-
-constexpr std::string_view blanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
-}
 
 // What stands before the first blank, which goes from `text` with the blanks behind it.
 std::string_view firstWord(std::string_view& text) {

@@ -15,7 +15,6 @@
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/srgb.h"
 #include "geometry/announced.h"
 #include "geometry/assimp_materials.h"
 #include "geometry/model_reader.h"
@@ -33,16 +32,10 @@ glm::dvec3 vector(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
 
-bool holdsSrgb(const std::string& file) {
-    const std::string ending = lowerExtension(file);
-    return ending == ".ply";
-}
-
 // Walks the nodes, appending their meshes in scene axes.
 class Collector {
   public:
-    Collector(const aiScene& scene, const std::string& file)
-        : scene_(scene), file_(file), srgb_(holdsSrgb(file)) {}
+    Collector(const aiScene& scene, const std::string& file) : scene_(scene), file_(file) {}
 
     void visit(const aiNode& node, const glm::dmat4& parent, int depth = 0) {
         if (depth > 1000) throw fail("has nodes nested deeper than 1000");
@@ -138,7 +131,6 @@ class Collector {
             if (part.HasVertexColors(0)) {
                 const aiColor4D& c = part.mColors[0][i];
                 color = {c.r, c.g, c.b};
-                if (srgb_) color = {linearOfSrgb(color.r), linearOfSrgb(color.g), linearOfSrgb(color.b)};
             }
             mesh.colors.push_back(isFinite(color) ? color : glm::dvec3(1));
 
@@ -171,7 +163,6 @@ class Collector {
 
     const aiScene& scene_;
     const std::string& file_;
-    bool srgb_;
 };
 
 // The files that a model consists of. A device has no end, and a pipe would wait for ever.

@@ -260,12 +260,21 @@ Kind meshes() {
         }
     }
     stl += "endsolid box\n";
+    const std::string rich =
+        "ply\nformat ascii 1.0\ncomment TextureFile none.png\nelement vertex 4\nproperty double x\n"
+        "property double y\nproperty double z\nproperty uchar red\nproperty uchar green\nproperty uchar "
+        "blue\n"
+        "element face 2\nproperty list ushort int vertex_index\nproperty list uchar float texcoord\n"
+        "property int texnumber\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n"
+        "3 0 1 2 6 0 0 1 0 1 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1 1\n5 0 1 2 -1 3\n";
     return {"meshes",
             {{"box.obj", obj},
              {"box.off", off},
              {"box.stl", stl},
              {"box.ply", ply},
-             {"bytes.ply", bytesOfPly, false}},
+             {"bytes.ply", bytesOfPly, false},
+             {"rich.ply", rich}},
             readOneMesh};
 }
 

@@ -1,0 +1,123 @@
+#include "geometry/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "geometry/model_reader.h"
+#include "geometry/polygon.h"
+
+namespace shoal {
+
+namespace {
+
+// A vertex has one place in the mesh's arrays for each texture coordinate and colour that its corners give
+// it: the first is its own, more are listed behind one another.
+class Copies {
+  public:
+    Copies(Mesh& mesh, bool uvs, bool colors, const std::string& file)
+        : mesh_(mesh), uvs_(uvs), colors_(colors), file_(file), vertices_(mesh.positions.size()) {
+        if (uvs) mesh.uvs.assign(vertices_, glm::dvec2(0));
+        if (colors) mesh.colors.assign(vertices_, glm::dvec3(1));
+        if (!any()) return;
+        used_.assign(vertices_, 0);
+        copies_.assign(vertices_, {});
+    }
+
+    bool any() const { return uvs_ || colors_; }
+
+    int placeOf(int vertex, const glm::dvec2& uv, const glm::dvec3& color) {
+        int at = vertex;
+        if (used_[size_t(vertex)]) {
+            for (; at >= 0; at = copies_[size_t(at)].next)
+                if ((!uvs_ || mesh_.uvs[size_t(at)] == uv) && (!colors_ || mesh_.colors[size_t(at)] == color))
+                    return at;
+            at = copyOf(vertex);
+        }
+        used_[size_t(vertex)] = 1;
+        if (uvs_) mesh_.uvs[size_t(at)] = uv;
+        if (colors_) mesh_.colors[size_t(at)] = color;
+        return at;
+    }
+
+    // Where the file has no normals, a vertex has one for all of its copies: a seam of texture coordinates is
+    // no edge.
+    void smoothSeams() {
+        if (mesh_.positions.size() == vertices_) return;
+        std::vector<glm::dvec3> sums(vertices_, glm::dvec3(0));
+        for (const glm::ivec3& t : mesh_.triangles) {
+            const glm::dvec3& a = mesh_.positions[size_t(t.x)];
+            const glm::dvec3 normal =
+                glm::cross(mesh_.positions[size_t(t.y)] - a, mesh_.positions[size_t(t.z)] - a);
+            for (int i = 0; i < 3; ++i)
+                sums[vertexAt(size_t(t[i]))] += normal;
+        }
+        for (size_t i = 0; i < mesh_.normals.size(); ++i) {
+            const glm::dvec3& sum = sums[vertexAt(i)];
+            const double length = glm::length(sum);
+            if (mesh_.normals[i] == glm::dvec3(0) && length > 0 && std::isfinite(length))
+                mesh_.normals[i] = sum / length;
+        }
+    }
+
+  private:
+    struct Copy {
+        int next = -1, vertex = 0;
+    };
+
+    size_t vertexAt(size_t place) const { return place < vertices_ ? place : size_t(copies_[place].vertex); }
+
+    int copyOf(int vertex) {
+        const size_t from = size_t(vertex);
+        const int at = int(mesh_.positions.size());
+        if (size_t(at) >= mostElements)
+            throw Error(Location{file_}, "has more than 2^28 vertices, the most that is read");
+        copies_.push_back({copies_[from].next, vertex});
+        copies_[from].next = at;
+        mesh_.positions.push_back(glm::dvec3(mesh_.positions[from]));
+        mesh_.normals.push_back(glm::dvec3(mesh_.normals[from]));
+        if (!mesh_.colors.empty()) mesh_.colors.push_back(glm::dvec3(mesh_.colors[from]));
+        if (!mesh_.uvs.empty()) mesh_.uvs.push_back(glm::dvec2(mesh_.uvs[from]));
+        return at;
+    }
+
+    Mesh& mesh_;
+    bool uvs_, colors_;
+    const std::string& file_;
+    size_t vertices_;
+    std::vector<char> used_;    // by vertex
+    std::vector<Copy> copies_;  // by place
+};
+
+}  // namespace
+
+std::vector<int> Polygons::addTo(Mesh& mesh, const std::string& file) {
+    Copies copies(mesh, !cornerUvs.empty(), colored, file);
+    cornerUvs.resize(corners.size(), glm::dvec2(0));
+    std::stable_sort(polygons.begin(), polygons.end(),
+                     [](const Polygon& a, const Polygon& b) { return a.image < b.image; });
+    std::vector<int> images;
+    std::vector<glm::dvec3> places;
+    for (const Polygon& polygon : polygons) {
+        if (images.empty() || images.back() != polygon.image) {
+            mesh.parts.push_back({"", "", int(mesh.triangles.size()), 0, -1});
+            images.push_back(polygon.image);
+        }
+        places.clear();
+        for (size_t i = 0; i < polygon.count; ++i)
+            places.push_back(mesh.positions[size_t(corners[polygon.first + i])]);
+        for (glm::ivec3 triangle : cutPolygon(places)) {
+            for (int i = 0; i < 3; ++i) {
+                const size_t corner = polygon.first + size_t(triangle[i]);
+                triangle[i] = copies.any() ? copies.placeOf(corners[corner], cornerUvs[corner], polygon.color)
+                                           : corners[corner];
+            }
+            mesh.triangles.push_back(triangle);
+        }
+        mesh.parts.back().triangleCount = int(mesh.triangles.size()) - mesh.parts.back().firstTriangle;
+    }
+    copies.smoothSeams();
+    return images;
+}
+
+}  // namespace shoal
