@@ -6,6 +6,12 @@ find_package(pugixml REQUIRED)
 find_package(GLEW REQUIRED)
 find_package(glfw3 3.3 REQUIRED)
 find_package(assimp REQUIRED)
+# lib3mf 1 has no CMake package; 2 has another interface.
+find_path(LIB3MF_INCLUDE Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf REQUIRED)
+find_library(LIB3MF_LIBRARY 3MF REQUIRED)
+add_library(Lib3MF INTERFACE IMPORTED)
+target_include_directories(Lib3MF SYSTEM INTERFACE ${LIB3MF_INCLUDE})
+target_link_libraries(Lib3MF INTERFACE ${LIB3MF_LIBRARY})
 find_package(Eigen3 REQUIRED NO_MODULE)
 
 # Closest points on models. The headers of 4 go before those of 3 (geometry/closest_point.cpp).

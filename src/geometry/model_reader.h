@@ -25,6 +25,7 @@ struct ModelFile {
     std::function<void(uint64_t)> opened;
 };
 
+Mesh read3mf(const ModelFile& model);
 Mesh readPly(const ModelFile& model);
 Mesh readWithAssimp(const ModelFile& model);
 Mesh readObj(const ModelFile& model);

@@ -92,16 +92,19 @@ class Copies {
 }  // namespace
 
 std::vector<int> Polygons::addTo(Mesh& mesh, const std::string& file) {
-    Copies copies(mesh, !cornerUvs.empty(), colored, file);
-    cornerUvs.resize(corners.size(), glm::dvec2(0));
+    Copies copies(mesh, !cornerUvs.empty(), !cornerColors.empty(), file);
+    if (copies.any()) {
+        cornerUvs.resize(corners.size(), glm::dvec2(0));
+        cornerColors.resize(corners.size(), glm::dvec3(1));
+    }
     std::stable_sort(polygons.begin(), polygons.end(),
-                     [](const Polygon& a, const Polygon& b) { return a.image < b.image; });
-    std::vector<int> images;
+                     [](const Polygon& a, const Polygon& b) { return a.look < b.look; });
+    std::vector<int> looks;
     std::vector<glm::dvec3> places;
     for (const Polygon& polygon : polygons) {
-        if (images.empty() || images.back() != polygon.image) {
+        if (looks.empty() || looks.back() != polygon.look) {
             mesh.parts.push_back({"", "", int(mesh.triangles.size()), 0, -1});
-            images.push_back(polygon.image);
+            looks.push_back(polygon.look);
         }
         places.clear();
         for (size_t i = 0; i < polygon.count; ++i)
@@ -109,15 +112,16 @@ std::vector<int> Polygons::addTo(Mesh& mesh, const std::string& file) {
         for (glm::ivec3 triangle : cutPolygon(places)) {
             for (int i = 0; i < 3; ++i) {
                 const size_t corner = polygon.first + size_t(triangle[i]);
-                triangle[i] = copies.any() ? copies.placeOf(corners[corner], cornerUvs[corner], polygon.color)
-                                           : corners[corner];
+                triangle[i] = copies.any()
+                                  ? copies.placeOf(corners[corner], cornerUvs[corner], cornerColors[corner])
+                                  : corners[corner];
             }
             mesh.triangles.push_back(triangle);
         }
         mesh.parts.back().triangleCount = int(mesh.triangles.size()) - mesh.parts.back().firstTriangle;
     }
     copies.smoothSeams();
-    return images;
+    return looks;
 }
 
 }  // namespace shoal

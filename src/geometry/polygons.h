@@ -1,5 +1,5 @@
-// Polygons whose corners have texture coordinates, and which have colours of their own, become triangles of a
-// mesh. For the readers of models.
+// Polygons whose corners have texture coordinates and colours of their own become triangles of a mesh. For
+// the readers of models.
 #pragma once
 
 #include "geometry/mesh.h"
@@ -10,15 +10,16 @@ struct Polygons {
     // `count` of `corners`, from `first` on; three or more.
     struct Polygon {
         size_t first = 0, count = 0;
-        int image = 0;  // the number of what it is painted with, by which parts are made
-        glm::dvec3 color{1};
+        int look = 0;  // the number of what it is painted with, by which parts are made
     };
     std::vector<Polygon> polygons;
-    std::vector<int> corners;           // of all polygons: vertices of the mesh
-    std::vector<glm::dvec2> cornerUvs;  // beside them; empty: vertices have them, or nothing has
-    bool colored = false;               // whether the polygons' colours count, instead of the vertices'
+    std::vector<int> corners;  // of all polygons: vertices of the mesh
+    // Beside the corners, linear RGB; empty: vertices have them, or nothing has. Those behind an array's end
+    // are 0 and white.
+    std::vector<glm::dvec2> cornerUvs;
+    std::vector<glm::dvec3> cornerColors;
 
-    // Cuts the polygons into triangles, adds them to a mesh that has vertices, and returns the image of each
+    // Cuts the polygons into triangles, adds them to a mesh that has vertices, and returns the look of each
     // of Mesh::parts, which are in the order of these numbers. Vertices are repeated where corners differ.
     // Error: they become more than mostElements.
     std::vector<int> addTo(Mesh& mesh, const std::string& file);

@@ -149,7 +149,7 @@ class PlyReader {
             note(concat("it goes on for ", many(int64_t(left), "byte", "bytes"),
                         " behind what its header announces, which are not read"));
         tellLeftOut();
-        polygons_.colored = hasFaceColors_ && !hasColors_;
+        if (hasColors_) polygons_.cornerColors.clear();
         partImages_ = polygons_.addTo(mesh_, model_.name);
         if (!mesh_.triangles.empty()) mesh_.objects.push_back({"", 0, int(mesh_.triangles.size())});
         addMaterials();
@@ -219,10 +219,10 @@ class PlyReader {
         return int(index);
     }
 
-    void addPolygon(size_t count, int image, const glm::dvec3& color) {
+    void addPolygon(size_t count, int image) {
         if (polygons_.corners.size() > mostElements)
             throw Error(Location{model_.name}, "has more than 2^28 corners, the most that is read");
-        polygons_.polygons.push_back({polygons_.corners.size() - count, count, image, color});
+        polygons_.polygons.push_back({polygons_.corners.size() - count, count, image});
     }
 
     void readFaces(const PlyElement& element) {
@@ -247,8 +247,8 @@ class PlyReader {
                 polygons_.cornerUvs.push_back(std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0));
             }
             const double image = columns.number(row, Means::image);
-            addPolygon(corners.size(), image >= 0 && image < 1e6 ? int(image) : -1,
-                       colored ? columns.color(row) : glm::dvec3(1));
+            addPolygon(corners.size(), image >= 0 && image < 1e6 ? int(image) : -1);
+            polygons_.cornerColors.resize(colored ? polygons_.corners.size() : 0, columns.color(row));
             transparent_ = transparent_ || columns.share(row, Means::alpha) < 1;
             hasFaceColors_ = hasFaceColors_ || colored;
         });
@@ -270,7 +270,7 @@ class PlyReader {
                 const bool odd = (i - first) % 2 == 1;
                 polygons_.corners.insert(polygons_.corners.end(), {int(strip[odd ? i - 1 : i - 2]),
                                                                    int(strip[odd ? i - 2 : i - 1]), last});
-                addPolygon(3, 0, glm::dvec3(1));
+                addPolygon(3, 0);
             }
         });
     }
