@@ -23,6 +23,8 @@ struct VtiText {
     size_t blockBytes = 48;
     std::string more = R"(Origin="1 2 3" Spacing="0.5 0.25 2")";
     std::string name = "velocity", before = {};  // another array in front of it
+    std::string whole = {};                      // the type of whole numbers, instead of floats
+    size_t wholeBytes = 4;
 
     std::string write(const std::vector<glm::dvec3>& values) const;
 
@@ -80,12 +82,18 @@ inline std::string VtiText::write(const std::vector<glm::dvec3>& values) const {
             uint32_t narrowBits = 0;
             std::memcpy(&bits, &v[k], 8);
             std::memcpy(&narrowBits, &narrow, 4);
-            number(data, wide ? bits : narrowBits, wide ? 8 : 4);
+            if (whole.empty())
+                number(data, wide ? bits : narrowBits, wide ? 8 : 4);
+            else
+                number(data, uint64_t(int64_t(v[k])), wholeBytes);
         }
     const bool appended = format == Format::appendedRaw || format == Format::appendedBase64;
     const std::string bounds = concat("0 ", extent.x, " 0 ", extent.y, " 0 ", extent.z);
-    std::string array = concat("<DataArray type=\"", wide ? "Float64" : "Float32", "\" Name=\"", name,
-                               "\" NumberOfComponents=\"3\" format=\"",
+    std::string array = concat("<DataArray type=\"",
+                               !whole.empty() ? whole
+                               : wide         ? "Float64"
+                                              : "Float32",
+                               "\" Name=\"", name, "\" NumberOfComponents=\"3\" format=\"",
                                appended                   ? "appended\" offset=\"0"
                                : format == Format::binary ? "binary"
                                                           : "ascii",

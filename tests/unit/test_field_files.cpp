@@ -227,6 +227,46 @@ TEST_CASE(".vti with a direction along the axes is turned, one across them refus
     }
 }
 
+TEST_CASE(".vti of whole numbers of every width and sign", "[fieldFiles]") {
+    const std::pair<const char*, size_t> types[] = {{"Int8", 1},  {"UInt8", 1},  {"Int16", 2}, {"UInt16", 2},
+                                                    {"Int32", 4}, {"UInt32", 4}, {"Int64", 8}, {"UInt64", 8}};
+    for (const auto& [type, bytes] : types)
+        for (const bool big : {false, true})
+            for (const auto format : {VtiText::Format::ascii, VtiText::Format::appendedRaw}) {
+                INFO(type << " " << big);
+                const bool negative = type[0] == 'I';
+                std::vector<glm::dvec3> values(24, {1, negative ? -2 : 200, 3});
+                values[23] = {negative ? -128 : 255, 0, 100};
+                const VtiText text{.format = format, .bigEndian = big, .whole = type, .wholeBytes = bytes};
+                same(parseVti(text.write(values), "w.vti"), values);
+            }
+}
+
+TEST_CASE(".vti of a flat image is one layer about its plane, of points or of cells", "[fieldFiles]") {
+    for (const bool ofCells : {true, false}) {
+        VtiText text{.ofCells = ofCells, .extent = {4, 4, 0}};
+        const auto grid = [&](const char* spacing) {
+            text.more = concat("Origin=\"0 0 3\" Spacing=\"", spacing, "\"");
+            const int side = ofCells ? 4 : 5;
+            const std::vector<glm::dvec3> values = numbered({side, side, 1});
+            const FileGrid out = parseVti(text.write(values), "w.vti");
+            CHECK(out.resolution == glm::ivec3(side, side, 1));
+            same(out, values);
+            return out;
+        };
+        const double half = ofCells ? 0 : 0.125;
+        CHECK(grid("0.25 0.5 0.25").low == glm::dvec3(-half, -2 * half, 2.875));
+        CHECK(grid("0.25 0.5 0.25").high == glm::dvec3(1 + half, 2 + 2 * half, 3.125));
+        CHECK(grid("0.25 0.5 0").low.z == 2.875);
+        CHECK(grid("0.25 0.5 0").high.z == 3.125);
+        text.more = "Spacing=\"0 0 0\"";
+        CHECK_THAT(messageOf([&] {
+                       parseVti(text.write(numbered({5, 5, 1})), "w.vti");
+                   }),
+                   Contains("expected a spacing above 0, found 0"));
+    }
+}
+
 TEST_CASE(".vti mistakes are located", "[fieldFiles]") {
     const std::string good = VtiText{}.write(numbered());
     const auto exchanged = [&](const std::string& text, const std::string& from, const std::string& to) {
@@ -249,7 +289,8 @@ TEST_CASE(".vti mistakes are located", "[fieldFiles]") {
                Contains("expected an extent of whole numbers in order, found 2 to 0"));
     CHECK_THAT(exchanged(good, "Piece Extent=\"0 2", "Piece Extent=\"0 1"),
                Contains("a piece that is the whole extent"));
-    CHECK_THAT(exchanged(good, "Float32", "Int32"), Contains("expected numbers as Float32 or Float64"));
+    CHECK_THAT(exchanged(good, "Float32", "String"),
+               Contains("expected numbers as Float32, Float64, or Int8 to UInt64, found \"String\""));
     CHECK_THAT(exchanged(good, "NumberOfComponents=\"3\"", ""), Contains("has no array of three components"));
     CHECK_THAT(exchanged(good, "0.5 0 0.25\n", "0.5 zero 0.25\n"),
                Contains("w.vti:7:5: expected a number, found \"zero\""));

@@ -72,10 +72,8 @@ class NumberScanner {
 };
 
 // Numbers as bytes.
-enum class NumberType { float16, float32, float64 };
-inline size_t bytesOf(NumberType type) {
-    return type == NumberType::float16 ? 2 : type == NumberType::float32 ? 4 : 8;
-}
+enum class NumberType { float16, float32, float64, int8, uint8, int16, uint16, int32, uint32, int64, uint64 };
+size_t bytesOf(NumberType type);
 // `out[i]` from the i-th number; as many as `out` has, which the bytes must hold.
 void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndian, std::span<float> out);
 

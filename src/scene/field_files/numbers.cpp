@@ -96,6 +96,49 @@ std::vector<glm::vec3> takeVelocities(NumberScanner& numbers, size_t cells) {
     return out;
 }
 
+size_t bytesOf(NumberType type) {
+    switch (type) {
+    case NumberType::int8:
+    case NumberType::uint8:
+        return 1;
+    case NumberType::float16:
+    case NumberType::int16:
+    case NumberType::uint16:
+        return 2;
+    case NumberType::float32:
+    case NumberType::int32:
+    case NumberType::uint32:
+        return 4;
+    default:
+        return 8;
+    }
+}
+
+namespace {
+
+float asFloat(uint64_t bits, NumberType type) {
+    switch (type) {
+    case NumberType::float16:
+        return glm::unpackHalf1x16(uint16_t(bits));
+    case NumberType::float32:
+        return std::bit_cast<float>(uint32_t(bits));
+    case NumberType::float64:
+        return float(std::bit_cast<double>(bits));
+    case NumberType::int8:
+        return float(int8_t(bits));
+    case NumberType::int16:
+        return float(int16_t(bits));
+    case NumberType::int32:
+        return float(int32_t(bits));
+    case NumberType::int64:
+        return float(int64_t(bits));
+    default:
+        return float(bits);
+    }
+}
+
+}  // namespace
+
 void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndian, std::span<float> out) {
     const size_t size = bytesOf(type);
     if (type == NumberType::float32 && bigEndian == (std::endian::native == std::endian::big)) {
@@ -106,12 +149,7 @@ void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndi
         uint64_t bits = 0;
         for (size_t b = 0; b < size; ++b)
             bits |= uint64_t(bytes[i * size + (bigEndian ? size - 1 - b : b)]) << (8 * b);
-        if (type == NumberType::float16)
-            out[i] = glm::unpackHalf1x16(uint16_t(bits));
-        else if (type == NumberType::float32)
-            out[i] = std::bit_cast<float>(uint32_t(bits));
-        else
-            out[i] = float(std::bit_cast<double>(bits));
+        out[i] = asFloat(bits, type);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "scene/field_files/field_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,6 +30,13 @@ Parts split(const std::string& text, const std::string& file) {
     if (end == std::string::npos || end < mark) throw Error(where, "the appended data do not end");
     return {text.substr(0, tagEnd + 1) + "</AppendedData></VTKFile>", mark + 1, end};
 }
+
+constexpr std::pair<std::string_view, NumberType> numberTypes[] = {
+    {"Float32", NumberType::float32}, {"Float64", NumberType::float64}, {"Int8", NumberType::int8},
+    {"UInt8", NumberType::uint8},     {"Int16", NumberType::int16},     {"UInt16", NumberType::uint16},
+    {"Int32", NumberType::int32},     {"UInt32", NumberType::uint32},   {"Int64", NumberType::int64},
+    {"UInt64", NumberType::uint64},
+};
 
 class Reader {
   public:
@@ -147,15 +155,16 @@ class Reader {
         glm::dvec3 size;
         for (int i = 0; i < 3; ++i) {
             const double first = extent[size_t(2 * i)], last = extent[size_t(2 * i + 1)],
-                         step = spacing[size_t(i)], start = origin[size_t(i)];
-            if (!(step > 0)) throw at(image, concat("expected a spacing above 0, found ", step));
+                         start = origin[size_t(i)];
             if (first != std::floor(first) || last != std::floor(last) || !(first <= last))
                 throw at(image,
                          concat("expected an extent of whole numbers in order, found ", first, " to ", last));
-            if (!ofPoints && first == last)
-                throw at(image, "an extent of one point along an axis has no cells there");
-            size[i] = last - first + (ofPoints ? 1 : 0);
-            const double half = ofPoints ? 0.5 : 0;
+            // A flat image is one layer, of points or of cells, about its plane.
+            const bool flat = first == last, centred = ofPoints || flat;
+            const double step = flat && spacing[size_t(i)] == 0 ? thinnest(spacing) : spacing[size_t(i)];
+            if (!(step > 0)) throw at(image, concat("expected a spacing above 0, found ", step));
+            size[i] = last - first + (centred ? 1 : 0);
+            const double half = centred ? 0.5 : 0;
             out.low[i] = start + step * (first - half);
             out.high[i] = start + step * (last + half);
             if (!(out.low[i] < out.high[i]))
@@ -163,6 +172,14 @@ class Reader {
         }
         countCells(size, where(image));
         out.resolution = glm::ivec3(size);
+        return out;
+    }
+
+    // The thickness of a layer whose own spacing is 0: the least of the others.
+    static double thinnest(const std::array<double, 3>& spacing) {
+        double out = 0;
+        for (const double step : spacing)
+            if (step > 0 && (out == 0 || step < out)) out = step;
         return out;
     }
 
@@ -220,10 +237,13 @@ class Reader {
 
     std::vector<glm::vec3> values(const pugi::xml_node& array, size_t cells) const {
         const std::string type = array.attribute("type").value(), format = array.attribute("format").value();
-        if (type != "Float32" && type != "Float64")
-            throw at(array, "expected numbers as Float32 or Float64, found \"" + type + "\"");
+        const auto known = std::find_if(std::begin(numberTypes), std::end(numberTypes),
+                                        [&](const auto& named) { return named.first == type; });
+        if (known == std::end(numberTypes))
+            throw at(array,
+                     "expected numbers as Float32, Float64, or Int8 to UInt64, found \"" + type + "\"");
         if (format == "ascii") return asText(array, cells);
-        const NumberType number = type == "Float32" ? NumberType::float32 : NumberType::float64;
+        const NumberType number = known->second;
         VtkEncoding encoding = encoding_;
         size_t begin = 0, end = 0;
         if (format == "binary") {
