@@ -188,6 +188,14 @@ class ModelFiles : public Assimp::DefaultIOSystem {
     std::set<std::string> seen_;
 };
 
+// Metres in a unit of the file. FBX says how many centimetres its unit has; COLLADA's is in Assimp's root
+// node, glTF's is the metre, and other formats say none.
+double metresOf(const aiScene& scene) {
+    float centimetres = 0;
+    if (!scene.mMetaData || !scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 1;
+    return std::isfinite(centimetres) && centimetres > 0 ? double(centimetres) / 100 : 1;
+}
+
 // Assimp's messages quote the file, whatever it holds.
 std::string oneLine(std::string text) {
     if (text.empty()) return "Assimp does not say why";
@@ -217,10 +225,11 @@ Mesh readWithAssimp(const ModelFile& model) {
         throw Error(location, "cannot be read as a model: ", oneLine(importer.GetErrorString()));
 
     Collector collector(*scene, model.name);
-    collector.visit(*scene->mRootNode, glm::dmat4(1));
+    const glm::dmat4 metres(glm::dmat3(metresOf(*scene)));
+    collector.visit(*scene->mRootNode, metres);
     if (collector.mesh.triangles.empty()) {  // a cloud of points
         collector.points = true;
-        collector.visit(*scene->mRootNode, glm::dmat4(1));
+        collector.visit(*scene->mRootNode, metres);
     }
     Mesh mesh = std::move(collector.mesh);
     if (const std::optional<size_t> announced = announcedTriangles(model.name);
