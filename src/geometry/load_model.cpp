@@ -157,6 +157,21 @@ Mesh readConfined(const std::string& file) {
     return mesh;
 }
 
+// Makes opaque what is to be blended and hides all that is behind it: opacity 1 and no texel that is less.
+void dropIdleBlends(Mesh& mesh) {
+    const auto hasHoles = [](const Image& image) {
+        for (size_t i = 3; image.channels == 4 && i < image.pixels.size(); i += 4)
+            if (image.pixels[i] < 255) return true;
+        return false;
+    };
+    for (SurfaceMaterial& look : mesh.materials) {
+        const bool blends = look.alpha == SurfaceMaterial::Alpha::blend && look.refraction <= 1;
+        if (!blends || look.color.a < 1) continue;
+        if (look.colorImage >= 0 && hasHoles(mesh.images[size_t(look.colorImage)])) continue;
+        look.alpha = SurfaceMaterial::Alpha::opaque;
+    }
+}
+
 }  // namespace
 
 void tellOfRounding(Mesh& mesh) {
@@ -187,6 +202,7 @@ Mesh loadMesh(const std::string& file, bool lenient) {
     mesh.notes.insert(mesh.notes.begin(), mesh.losses.begin(), mesh.losses.end());
     mesh.losses.clear();
     completeMesh(mesh);
+    dropIdleBlends(mesh);
     return mesh;
 }
 

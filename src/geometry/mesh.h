@@ -82,7 +82,8 @@ constexpr int largestModelImage = 2048;  // larger ones are halved when they are
 // Polygons are cut into triangles; lines and points are ignored, unless there is nothing else: then the mesh
 // is the cloud of the file's points, without triangles. Vertex colours become linear: OBJ and PLY
 // files hold them in sRGB by custom, glTF and the others linear. Images are embedded, or lie where the file
-// says; a path that leads nowhere is looked for by its name beside the model. The file is read in a child
+// says; a path that leads nowhere is looked for by its name beside the model. What is to be blended and lets
+// nothing through becomes opaque. The file is read in a child
 // process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty. Error: no such file, not
 // readable as a model within limits of time and memory, a position that is not finite or beyond 1e30 m,
 // neither triangles nor points, and where `lenient` is not set any loss.

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
-#include <utility>
 
 #include "render/picture.h"
+#include "scene/collider_mesh.h"
 
 namespace shoal {
 
@@ -30,15 +28,6 @@ struct SurfaceMesh {
 
 namespace {
 
-using std::numbers::pi;
-
-// Two unit directions across a unit normal; x and z for one that points up.
-std::pair<glm::dvec3, glm::dvec3> tangentsOf(const glm::dvec3& normal) {
-    const glm::dvec3 start = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 along = glm::normalize(start - glm::dot(start, normal) * normal);
-    return {along, glm::cross(along, normal)};
-}
-
 SurfaceMesh meshOf(const Mesh& mesh) {
     SurfaceMesh out;
     out.origin = glm::floor(0.5 * (mesh.low + mesh.high));
@@ -56,99 +45,16 @@ SurfaceMesh meshOf(const Mesh& mesh) {
     return out;
 }
 
-// Adds rings of corners, each of which ends where it began, and two triangles between any four of them.
-// `corner` makes that of a ring at a turn, rad.
-template <typename MakeCorner>
-void addRings(SurfaceMesh& mesh, int rings, int segments, const MakeCorner& corner) {
-    for (int i = 0; i < rings; ++i)
-        for (int j = 0; j <= segments; ++j)
-            mesh.corners.push_back(corner(i, 2 * pi * j / segments));
-    for (int i = 0; i + 1 < rings; ++i)
-        for (int j = 0; j < segments; ++j) {
-            const uint32_t a = uint32_t(i * (segments + 1) + j), b = a + uint32_t(segments) + 1;
-            mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
-        }
-}
-
-SurfaceMesh meshOf(const SphereCollider& sphere) {
-    constexpr int rings = 48, segments = 96;
+// Nothing where it shows as its model.
+SurfaceMesh meshOf(const Collider& collider) {
+    const ColliderMesh mesh = colliderMesh(collider);
     SurfaceMesh out;
-    out.origin = sphere.center;
-    addRings(out, rings + 1, segments, [&](int i, double turn) {
-        const double polar = pi * i / rings;
-        const glm::dvec3 n(std::sin(polar) * std::sin(turn), std::cos(polar),
-                           std::sin(polar) * std::cos(turn));
-        return SurfaceMesh::Corner{glm::vec3(sphere.radius * n), glm::vec3(n)};
-    });
+    out.origin = mesh.origin;
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+        out.corners.push_back({mesh.positions[i], mesh.normals[i]});
+    out.indices = mesh.corners;
     return out;
 }
-
-SurfaceMesh meshOf(const BoxCollider& box) {
-    SurfaceMesh out;
-    out.origin = box.center;
-    const glm::dmat3 turn = glm::mat3_cast(box.rotation);
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double side : {-1.0, 1.0}) {
-            glm::dvec3 n(0), u(0), v(0);
-            n[axis] = side;
-            u[(axis + 1) % 3] = side;  // so that the corners go round anticlockwise
-            v[(axis + 2) % 3] = 1;
-            const uint32_t first = uint32_t(out.corners.size());
-            for (const glm::dvec2 at : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-                const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
-                out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n)});
-            }
-            out.indices.insert(out.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-        }
-    }
-    return out;
-}
-
-// A sphere cut in two at its equator, the halves moved to the ends.
-SurfaceMesh meshOf(const CapsuleCollider& capsule) {
-    constexpr int rings = 24, segments = 64;
-    SurfaceMesh out;
-    out.origin = capsule.from;
-    const glm::dvec3 span = capsule.to - capsule.from;
-    const double length = glm::length(span);
-    const glm::dvec3 axis = length > 0 ? span / length : glm::dvec3(0, 1, 0);
-    const auto [along, across] = tangentsOf(axis);
-    addRings(out, 2 * rings, segments, [&, &u = along, &v = across](int i, double turn) {
-        const bool far = i < rings;  // the equator twice, once at each end
-        const double polar = pi * (far ? i : i - 1) / (2 * (rings - 1));
-        const glm::dvec3 n =
-            std::cos(polar) * axis + std::sin(polar) * (std::cos(turn) * u + std::sin(turn) * v);
-        return SurfaceMesh::Corner{glm::vec3(capsule.radius * n + (far ? span : glm::dvec3(0))),
-                                   glm::vec3(n)};
-    });
-    return out;
-}
-
-// A disc of radius 1 around the origin; its rings are closer together in the middle, where the eye is.
-SurfaceMesh meshOf(const PlaneCollider& plane) {
-    constexpr int rings = 24, segments = 64;
-    const glm::dvec3 normal = glm::normalize(plane.normal);
-    const auto [along, across] = tangentsOf(normal);
-    SurfaceMesh out;
-    addRings(out, rings + 1, segments, [&, &u = along, &v = across](int i, double turn) {
-        const double radius = std::pow(double(i) / rings, 3);
-        const glm::dvec3 place = radius * (std::cos(turn) * u + std::sin(turn) * v);
-        return SurfaceMesh::Corner{glm::vec3(place), glm::vec3(normal)};
-    });
-    return out;
-}
-
-// Nothing: these are drawn as their models.
-SurfaceMesh meshOf(const HeightFieldCollider&) {
-    return {};
-}
-
-SurfaceMesh meshOf(const DistanceFieldCollider&) {
-    return {};
-}
-
-constexpr double planeReach = 60;   // how far a plane is drawn, in heights of the eye above it
-constexpr double leastReach = 150;  // m
 
 Pose poseOf(const std::optional<ColliderPath>& path, double time) {
     return path ? poseAt(*path, time) : Pose{};
@@ -167,6 +73,11 @@ static bool blended(const SurfaceMaterial& material) {
 // Whether its image has holes.
 static bool cutOut(const SurfaceMaterial& material) {
     return material.alpha == SurfaceMaterial::Alpha::cut && material.colorImage >= 0;
+}
+
+// Whether the alpha of its image counts.
+static bool hasHoles(const SurfaceMaterial& material) {
+    return material.alpha != SurfaceMaterial::Alpha::opaque && material.colorImage >= 0;
 }
 
 static bool refracting(const SurfaceMaterial& material) {
@@ -228,7 +139,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Li
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        const SurfaceMesh mesh = std::visit([](const auto& kind) { return meshOf(kind); }, *collider.shape);
+        const SurfaceMesh mesh = meshOf(collider);
         if (mesh.indices.empty()) continue;
         Drawn drawn;
         Look look;
@@ -300,10 +211,11 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
                 look.lit->use();
                 look.lit->set("grid", int(grid));
             }
-            if (!shadows || !surface.casts || blended(material)) continue;
+            if (!shadows || !surface.casts) continue;
             gpu::ProgramOptions depth{
                 "render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"};
-            if (cutOut(material)) depth.defines.insert(depth.defines.end(), {"IMAGES", "CUT"});
+            if (blended(material)) depth.defines.emplace_back("BLENDED");
+            if (hasHoles(material)) depth.defines.insert(depth.defines.end(), {"IMAGES", "HOLES"});
             look.depth = &programs_.get(context, depth);
         }
     }
@@ -327,11 +239,11 @@ void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> t
             program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
             program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
             program.set("meshScale", 1.0f);
-            if (cutOut(look.material)) {
+            if (hasHoles(look.material))
                 program.texture("image", unit::image, surface.images[size_t(look.material.colorImage)]);
-                program.set("alphaCut", float(look.material.alphaCut));
+            if (cutOut(look.material)) program.set("alphaCut", float(look.material.alphaCut));
+            if (hasHoles(look.material) || blended(look.material))
                 program.set("meshColor", glm::vec4(look.material.color));
-            }
             submit(surface, look);
         }
     }
@@ -340,11 +252,8 @@ void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> t
 // The disc's middle is the foot of the eye on the plane; grain and grid stay where they are in the scene.
 void SurfaceDrawer::placePlane(const gpu::Program& program, const PlaneCollider& plane,
                                const Eye& eye) const {
-    const glm::dvec3 normal = glm::normalize(plane.normal);
-    const double height = glm::dot(eye.origin.exact - plane.point, normal);
-    const double reach = std::max(leastReach, planeReach * std::abs(height));
-    const glm::dvec3 foot = eye.origin.exact - height * normal;
-    const auto [along, across] = tangentsOf(normal);
+    const auto [foot, reach] = seenOf(plane, eye.origin.exact);
+    const auto [along, across] = tangentsOf(glm::normalize(plane.normal));
     const auto offset = [](double s) { return float(s - 10 * std::floor(s / 10)); };
     program.set("meshOrigin", glm::vec3(foot - eye.origin.exact));
     program.set("meshScale", float(reach));
@@ -420,7 +329,7 @@ void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double
     std::stable_sort(order.begin(), order.end(),
                      [](const Far& a, const Far& b) { return a.distance > b.distance; });
     glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
     for (const Far& one : order) {
         if (refracting(one.look->material)) applyGlass(*one.look, eye, behind);

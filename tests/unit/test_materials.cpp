@@ -191,6 +191,32 @@ TEST_CASE("the largest image that is read fits what its model may take, however 
     CHECK(mesh.images[0].pixels[2] == 255);
 }
 
+TEST_CASE("what is to be blended and hides all that is behind it is opaque", "[model][material]") {
+    const Scratch scratch;
+    writePng(scratch.path("whole.png"), plain(1, 1, {255, 0, 0, 255}));
+    writePng(scratch.path("holes.png"), plain(1, 1, {255, 0, 0, 254}));
+    // Three vertices of 12 bytes: (0, 0, 0), (1, 0, 0), (0, 1, 0).
+    const auto alphaOf = [&](const std::string& pbr) {
+        return materialOf(loadMesh(scratch.write("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+            "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+            "images": [{"uri": "whole.png"}, {"uri": "holes.png"}], "textures": [{"source": 0}, {"source": 1}],
+            "materials": [{"name": "paint", "alphaMode": "BLEND", "pbrMetallicRoughness": {)" +
+                                                               pbr + R"(}}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]},
+                          {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri":
+                "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})")))
+            .alpha;
+    };
+    CHECK(alphaOf(R"("baseColorFactor": [1, 1, 1, 1])") == Alpha::opaque);
+    CHECK(alphaOf(R"("baseColorFactor": [1, 1, 1, 0.5])") == Alpha::blend);
+    CHECK(alphaOf(R"("baseColorTexture": {"index": 0})") == Alpha::opaque);
+    CHECK(alphaOf(R"("baseColorTexture": {"index": 1})") == Alpha::blend);
+}
+
 TEST_CASE("what of a material is not drawn is told", "[model][material]") {
     const Scratch scratch;
     writePng(scratch.path("grey.png"), plain(1, 1, {128, 128, 128, 255}));
