@@ -1,7 +1,8 @@
 // A molecule's colour by its speed (src/scene/color_scale.h). Needs state/molecule.glsl.
 
-const int mostColors = 8;          // src/scene/color_scale.h
-const int mostVerticesRead = 64;   // evenly chosen from those of a larger molecule
+#include "render/looks.glsl"
+
+const int mostVerticesRead = 64;  // evenly chosen from those of a larger molecule
 
 uniform vec4 scaleColors[mostColors];  // linear RGB
 uniform int scaleLast;                 // of the colours in use
@@ -17,7 +18,5 @@ vec3 scaleColor(int molecule)
         sum += vertexVelocity(molecule, v);
         ++count;
     }
-    float place = clamp((length(sum) / float(count) - scaleSpan.x) * scaleSpan.y, 0.0, 1.0) * float(scaleLast);
-    int below = min(int(place), scaleLast - 1);
-    return mix(scaleColors[below].rgb, scaleColors[below + 1].rgb, place - float(below));
+    return colorOfQuantity(length(sum) / float(count), scaleColors, scaleLast, scaleSpan);
 }

@@ -8,17 +8,14 @@ vec3 instanceColor(int molecule)
     return scaleColor(molecule);
 }
 #else
-#include "physics/random.glsl"
+#include "render/looks.glsl"
 
 uniform vec3 firstColor;  // linear RGB
 uniform vec3 secondColor;
+uniform float variation;  // of the brightness, in [0, 1]
 
 vec3 instanceColor(int molecule)
 {
-    uint seed = moleculeSeed(molecule);
-    float between = uniformFrom(hashSeed(seed, 0xc0101u));
-    float brightness = uniformFrom(hashSeed(seed, 0xc0102u));
-    // Most are near the first colour, a few well on their way to the second.
-    return mix(firstColor, secondColor, between * between * (1.5 - 0.5 * between)) * (0.8 + 0.4 * brightness);
+    return colorOfSeed(moleculeSeed(molecule), firstColor, secondColor, variation);
 }
 #endif

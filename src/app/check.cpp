@@ -273,6 +273,20 @@ bool isShipped(const Molecule& molecule) {
                                        ignored);
 }
 
+}  // namespace
+
+std::vector<Warning> warningsOfStart(const Scene& scene, const Plan& plan) {
+    std::vector<Warning> out = checkStart(scene, plan);
+    for (const Group& group : scene.groups) {
+        if (isShipped(group.molecule)) continue;
+        for (const Warning& warning : check(group.molecule))
+            out.push_back(warning);
+    }
+    return out;
+}
+
+namespace {
+
 Verdict checkScene(const std::string& file, bool lenient) {
     FieldWatch watch;
     const Scene scene = readScene(file, watch.baking(), lenient);
@@ -282,13 +296,8 @@ Verdict checkScene(const std::string& file, bool lenient) {
     Verdict out;
     out.kind = "scene";
     out.warnings = plan.warnings;
-    for (const Warning& warning : checkStart(scene, plan))
+    for (const Warning& warning : warningsOfStart(scene, plan))
         out.warnings.push_back(warning);
-    for (const Group& group : scene.groups) {
-        if (isShipped(group.molecule)) continue;
-        for (const Warning& warning : check(group.molecule))
-            out.warnings.push_back(warning);
-    }
     int molecules = 0;
     for (const GroupPlan& group : plan.groups)
         molecules += group.count;

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/printable.h"
 #include "exchange/gltf.h"
+#include "run/progress.h"
 #include "run/signals.h"
 
 namespace shoal::app {
@@ -29,17 +30,19 @@ std::vector<DrawnMesh> meshesNow(const Simulation& simulation, const Scene& scen
     for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
         const GroupPlan& plan = simulation.plan().groups[g];
         const Snapshot state = simulation.snapshot(g);
-        const GroupMesh group(scene.groups[plan.index], plan.constants.seeds);
-        const std::vector<size_t> molecules = livingIn(state);
+        const GroupMesh group(scene.groups[plan.index]);
+        const std::vector<exchange::MoleculeState> molecules = livingIn(state);
         std::vector<glm::dvec3> positions;
         DrawnMesh mesh = group.mesh(molecules);
-        for (const size_t m : molecules)
-            group.place(ofMolecule(state.positions, state, m), positions, mesh.normals);
+        for (const exchange::MoleculeState& molecule : molecules)
+            group.place(molecule, positions, mesh.normals);
         recentre(mesh, positions);
         out.push_back(std::move(mesh));
     }
     for (const Model& model : scene.models)
         if (model.draw && !model.mesh.triangles.empty()) out.push_back(exchange::modelMesh(model));
+    for (const Collider& collider : scene.colliders)
+        out.push_back(exchange::colliderMesh(collider, scene.camera.eye, simulation.time()));
     return out;
 }
 
@@ -78,8 +81,7 @@ class TextureExport {
           scene_(scene),
           simulation_(simulation),
           index_(groupIndex()),
-          group_(scene.groups[simulation.plan().groups[index_].index],
-                 simulation.plan().groups[index_].constants.seeds) {
+          group_(scene.groups[simulation.plan().groups[index_].index]) {
         if (group_.points())
             throw Error("group \"", group_.name(), "\" has no triangles: an animation texture needs a mesh");
         const GroupPlan& plan = simulation.plan().groups[index_];
@@ -110,6 +112,8 @@ class TextureExport {
             sums_.vertices += part.vertices;
             sums_.written.insert(sums_.written.end(), part.written.begin(), part.written.end());
         }
+        const GroupPlan& plan = simulation_.plan().groups[index_];
+        if (options_.rigid) tellWarnings(warningsOfBending(scene_.groups[plan.index], plan, sums_.worst));
     }
 
     JsonValue report() const {
@@ -165,6 +169,7 @@ class TextureExport {
         if (most == 0)
             throw Error("group \"", group_.name(), "\": a molecule is drawn with ", columnsEach(),
                         " vertices, and a texture has at most ", AnimationTexture::mostColumns, " columns");
+        const Snapshot state = simulation_.snapshot(index_);
         for (size_t first = 0; first < molecules_; first += most) {
             Part part;
             part.first = first;
@@ -174,9 +179,9 @@ class TextureExport {
             part.texture = std::make_unique<AnimationTexture>(
                 fs::path(options_.vat) / (part.name + "_vat" + ending(options_.format)),
                 part.count * columnsEach());
-            std::vector<size_t> molecules(part.count);
+            std::vector<exchange::MoleculeState> molecules;
             for (size_t i = 0; i < part.count; ++i)
-                molecules[i] = first + i;
+                molecules.push_back(moleculeIn(state, first + i));
             part.mesh = group_.mesh(molecules);
             part.mesh.name = part.name;
             part.turns.resize(options_.rigid ? part.count : 0, glm::dquat(1, 0, 0, 0));
@@ -196,7 +201,7 @@ class TextureExport {
                 throw Error("group \"", group_.name(), "\": molecule ", m, " does not live in frame ",
                             options_.first + frame,
                             ": an animation texture needs molecules that live throughout");
-            group_.place(ofMolecule(state.positions, state, m), positions, normals);
+            group_.place(moleculeIn(state, m), positions, normals);
         }
         if (frame == 0) part.begin = positions;
         // The mesh is the frame that the loop begins with; rigid ones turn from their first.
@@ -334,10 +339,25 @@ class TextureExport {
 
 }  // namespace
 
+std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan, double residual) {
+    constexpr double most = 0.05;  // of its size
+    double scale = 0;
+    for (const float each : plan.constants.scales)
+        scale = std::max(scale, double(each));
+    const double size = (scale > 0 ? scale : 1) * group.molecule.size();
+    if (residual <= most * size) return {};
+    return {{group.location,
+             concat("\"", group.name, "\" bends: rigid molecules are off by up to ", residual * 1e3, " mm, ",
+                    std::round(100 * residual / size),
+                    " % of their size; without --rigid, or of USD with --rigid-within, every vertex is "
+                    "written")}};
+}
+
 int exportCommand(const Options& options) {
     const ExportOptions& asked = options.animation;
     if (!asked.glb.empty()) checkWritable(asked.glb);
     Loaded loaded = loadScene(options.files.front(), options);
+    tellWarnings(warningsOfStart(loaded.scene, loaded.plan));
     gpu::Context context(hiddenContext(options));
     SimulationOptions simulationOptions;
     simulationOptions.path = options.path;

@@ -5,22 +5,30 @@
 #include <vector>
 
 #include "app/options.h"
+#include "exchange/drawn_mesh.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
 
-inline std::span<const glm::dvec3> ofMolecule(const std::vector<glm::dvec3>& values, const Snapshot& state,
-                                              size_t molecule) {
+// Borrows from the snapshot.
+inline exchange::MoleculeState moleculeIn(const Snapshot& state, size_t molecule) {
     const auto each = size_t(state.vertexCount);
-    return std::span(values).subspan(molecule * each, each);
-}
-
-inline std::vector<size_t> livingIn(const Snapshot& state) {
-    std::vector<size_t> out;
-    for (size_t m = 0; m < size_t(state.count); ++m)
-        if (state.alive.empty() || state.alive[m]) out.push_back(m);
+    exchange::MoleculeState out{std::span(state.positions).subspan(molecule * each, each),
+                                std::span(state.velocities).subspan(molecule * each, each),
+                                state.seeds[molecule]};
+    if (!state.lives.empty()) out.life = state.lives[molecule];
     return out;
 }
+
+inline std::vector<exchange::MoleculeState> livingIn(const Snapshot& state) {
+    std::vector<exchange::MoleculeState> out;
+    for (size_t m = 0; m < size_t(state.count); ++m)
+        if (state.alive.empty() || state.alive[m]) out.push_back(moleculeIn(state, m));
+    return out;
+}
+
+// Warns where --rigid leaves vertices off (m) by more than a twentieth of a molecule's size.
+std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan, double residual);
 
 // Runs the simulation for --frames and writes all that is drawn as USD (export_usd.cpp); says what.
 void exportUsd(const Options& options, const Scene& scene, Simulation& simulation);

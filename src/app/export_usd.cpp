@@ -9,6 +9,7 @@
 #include "core/printable.h"
 #include "exchange/animation_texture.h"
 #include "exchange/usda.h"
+#include "run/progress.h"
 #include "run/signals.h"
 
 namespace shoal::app {
@@ -22,7 +23,8 @@ class RigidFit {
   public:
     RigidFit(const GroupMesh& mesh, const GroupPlan& plan) : scales_(plan.constants.scales) {
         scales_.resize(size_t(plan.count), 1);
-        mesh.place(mesh.restPlaces(), rest_, normals_);
+        const std::vector<glm::dvec3> places = mesh.restPlaces();
+        mesh.place({places, {}}, rest_, normals_);
         glm::dvec3 middle(0);
         for (const glm::dvec3& x : rest_)
             middle += x / double(rest_.size());
@@ -40,10 +42,10 @@ class RigidFit {
         return out;
     }
     void look(const GroupMesh& mesh, const Snapshot& state) {
-        for (const size_t m : livingIn(state)) {
+        for (size_t m = 0; m < size_t(state.count); ++m) {
             std::vector<glm::dvec3> places;
             std::vector<glm::vec3> normals;
-            mesh.place(ofMolecule(state.positions, state, m), places, normals);
+            mesh.place(moleculeIn(state, m), places, normals);
             motion(m, places);
         }
     }
@@ -71,7 +73,7 @@ class UsdGroup {
              const Rigidity& rigidity)
         : plan_(&simulation.plan().groups[index]),
           index_(index),
-          mesh_(scene.groups[plan_->index], plan_->constants.seeds),
+          mesh_(scene.groups[plan_->index]),
           changes_(plan_->needs.life),
           residual_(rigidity.residual) {
         const bool rigid = rigidity.asInstances && !mesh_.points();
@@ -80,24 +82,21 @@ class UsdGroup {
                         "\" has births or deaths: --rigid needs molecules that live throughout");
         UsdMoving how;
         how.changes = changes_;
-        how.origin = exchange::originOf(simulation.snapshot(index).positions);
-        const Group& group = scene.groups[plan_->index];
-        if (group.particle && group.particle->shape != ParticleShape::points)
-            how.width = (group.particle->size.x + group.particle->size.y) / 2;
-        else if (!group.particle)
-            how.width = group.molecule.material.pointSize;
-        std::vector<size_t> molecules(rigid ? 1 : size_t(plan_->count));
-        for (size_t i = 0; i < molecules.size(); ++i)
-            molecules[i] = i;
-        DrawnMesh mesh = mesh_.mesh(molecules);
+        how.looksChange = changes_ || mesh_.looksChange();
+        const Snapshot state = simulation.snapshot(index);
+        how.origin = exchange::originOf(state.positions);
+        std::vector<exchange::MoleculeState> molecules;
+        for (size_t m = 0; m < size_t(plan_->count); ++m)
+            molecules.push_back(moleculeIn(state, m));
+        DrawnMesh mesh = mesh_.mesh(std::span(molecules).first(rigid ? 1 : molecules.size()));
         if (rigid) {
             fit_.emplace(mesh_, *plan_);
             for (const glm::dvec3& x : fit_->rest())
                 mesh.positions.emplace_back(x);
             mesh.normals = fit_->normals();
             how.instances = fit_->scales();
-            for (size_t m = 0; m < how.instances.size(); ++m)
-                how.colors.push_back(mesh_.colorOf(m));
+            for (const exchange::MoleculeState& molecule : molecules)
+                how.colors.push_back(mesh_.colorOf(molecule));
         }
         number_ = stage.addMoving(mesh, how);
     }
@@ -105,35 +104,42 @@ class UsdGroup {
     void sample(UsdStage& stage, const Simulation& simulation, int frame) {
         const Snapshot state = simulation.snapshot(index_);
         UsdSample out;
-        const std::vector<size_t> molecules = livingIn(state);
+        const std::vector<exchange::MoleculeState> molecules = livingIn(state);
         std::vector<glm::dvec3> places;
         std::vector<glm::vec3> normals;
-        for (const size_t m : molecules) {
+        for (size_t i = 0; i < molecules.size(); ++i) {
             if (fit_) places.clear();
-            mesh_.place(ofMolecule(state.positions, state, m), places, normals);
+            mesh_.place(molecules[i], places, normals);
             if (fit_) {
-                const exchange::RigidMotion motion = fit_->motion(m, places);
+                const exchange::RigidMotion motion = fit_->motion(i, places);
                 out.points.push_back(motion.middle);
                 out.turns.emplace_back(motion.turn);
+                if (mesh_.looksChange()) out.colors.push_back(mesh_.colorOf(molecules[i]));
             } else {
-                mesh_.addVelocities(ofMolecule(state.velocities, state, m), out.velocities);
+                mesh_.addVelocities(molecules[i].velocities, out.velocities);
             }
         }
         if (!fit_) {
             out.points = std::move(places);
             if (!mesh_.points()) out.normals = std::move(normals);
         }
-        if (changes_) {
-            const DrawnMesh now = mesh_.mesh(molecules);
-            out.corners = now.corners;
-            out.colors = now.colors;
-            if (!mesh_.points()) out.uvs = now.uvs;
+        if (!fit_ && (changes_ || mesh_.looksChange())) {
+            DrawnMesh now = mesh_.mesh(molecules);
+            out.colors = std::move(now.colors);
+            out.opacities = std::move(now.opacities);
+            out.widths = std::move(now.sizes);
+            if (changes_) out.corners = std::move(now.corners);
+            if (changes_ && !mesh_.points()) out.uvs = std::move(now.uvs);
         }
         stage.sample(number_, frame, out);
     }
 
     const std::string& name() const { return mesh_.name(); }
     const std::optional<RigidFit>& fit() const { return fit_; }
+    std::vector<Warning> warnings(const Scene& scene) const {
+        if (!fit_) return {};
+        return warningsOfBending(scene.groups[plan_->index], *plan_, fit_->worst());
+    }
     // Tells what the group is written as where instances were asked for, and why.
     std::string rigiditySentence() const {
         const std::string what = concat("group \"", printable(name()), "\": ");
@@ -150,6 +156,38 @@ class UsdGroup {
     bool changes_;
     std::optional<double> residual_;
     std::optional<RigidFit> fit_;
+};
+
+// A collider, which may move.
+class UsdCollider {
+  public:
+    UsdCollider(UsdStage& stage, const Scene& scene, const Collider& collider, double time)
+        : collider_(&collider), eye_(scene.camera.eye) {
+        const DrawnMesh mesh = exchange::colliderMesh(collider, eye_, time);
+        if (mesh.positions.empty()) return;
+        if (!collider.path) {
+            stage.add(mesh);
+            return;
+        }
+        UsdMoving how;
+        how.origin = mesh.origin;
+        number_ = stage.addMoving(mesh, how);
+    }
+
+    void sample(UsdStage& stage, int frame, double time) {
+        if (!number_) return;
+        const DrawnMesh mesh = exchange::colliderMesh(*collider_, eye_, time);
+        UsdSample out;
+        for (const glm::vec3& x : mesh.positions)
+            out.points.push_back(mesh.origin + glm::dvec3(x));
+        out.normals = mesh.normals;
+        stage.sample(*number_, frame, out);
+    }
+
+  private:
+    const Collider* collider_;
+    glm::dvec3 eye_;
+    std::optional<size_t> number_;  // nothing: it stands still, or is not drawn
 };
 
 void eachFrame(Simulation& simulation, int frames, const auto& look) {
@@ -169,7 +207,7 @@ std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene
     std::vector<std::optional<RigidFit>> fits(plans.size());
     for (size_t g = 0; g < plans.size(); ++g) {
         if (plans[g].count == 0 || plans[g].needs.life) continue;
-        meshes[g].emplace(scene.groups[plans[g].index], plans[g].constants.seeds);
+        meshes[g].emplace(scene.groups[plans[g].index]);
         if (!meshes[g]->points()) fits[g].emplace(*meshes[g], plans[g]);
     }
     const SavedState start = simulation.save();
@@ -191,6 +229,9 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
     for (const Model& model : scene.models)
         if (model.draw && !model.mesh.triangles.empty()) stage.add(exchange::modelMesh(model));
     stage.add(scene.camera);
+    std::vector<UsdCollider> colliders;
+    for (const Collider& collider : scene.colliders)
+        colliders.emplace_back(stage, scene, collider, simulation.time());
     const std::vector<Rigidity> rigid = rigidGroups(asked, scene, simulation);
     std::vector<UsdGroup> groups;
     for (size_t g = 0; g < rigid.size(); ++g)
@@ -198,9 +239,13 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
     eachFrame(simulation, asked.frames, [&](int frame) {
         for (UsdGroup& group : groups)
             group.sample(stage, simulation, frame);
+        for (UsdCollider& collider : colliders)
+            collider.sample(stage, frame, simulation.time());
         stage.endFrame(frame);
     });
     stage.finish();
+    for (const UsdGroup& group : groups)
+        tellWarnings(group.warnings(scene));
     const std::vector<std::string>& written = stage.written();
     if (options.json) {
         JsonValue residuals = JsonValue::makeObject();

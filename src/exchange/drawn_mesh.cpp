@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/random.h"
+#include "scene/collider_mesh.h"
 
 namespace shoal::exchange {
 
@@ -42,8 +42,7 @@ SurfaceMaterial materialOf(const Material& looks) {
 
 }  // namespace
 
-GroupMesh::GroupMesh(const Group& group, std::span<const uint32_t> seeds)
-    : group_(&group), seeds_(seeds.begin(), seeds.end()), material_(materialOf(group.molecule.material)) {
+GroupMesh::GroupMesh(const Group& group) : group_(&group), material_(materialOf(group.molecule.material)) {
     const Molecule& molecule = group.molecule;
     if (molecule.skin.empty()) {
         corners_ = cornersOf(molecule.triangles);
@@ -62,12 +61,16 @@ GroupMesh::GroupMesh(const Group& group, std::span<const uint32_t> seeds)
     images_.push_back(readPng(folder / molecule.material.texture));
 }
 
-void GroupMesh::place(std::span<const glm::dvec3> places, std::vector<glm::dvec3>& positions,
+void GroupMesh::place(const MoleculeState& state, std::vector<glm::dvec3>& positions,
                       std::vector<glm::vec3>& normals) const {
     const Molecule& molecule = group_->molecule;
-    const std::vector<glm::dvec3> simulated(places.begin(), places.end());
+    std::vector<glm::dvec3> simulated(state.positions.begin(), state.positions.end());
+    const double grown = grownTo(*group_, state);
+    if (grown < 1)
+        for (glm::dvec3& x : simulated)
+            x = glm::mix(state.positions[0], x, grown);
     if (molecule.skin.empty()) {
-        positions.insert(positions.end(), places.begin(), places.end());
+        positions.insert(positions.end(), simulated.begin(), simulated.end());
         for (const glm::dvec3& n : vertexNormals(molecule, simulated))
             normals.emplace_back(n);
         return;
@@ -92,26 +95,17 @@ void GroupMesh::addVelocities(std::span<const glm::dvec3> simulated,
     }
 }
 
-// As shaders/render/instance_color.glsl has it.
-glm::vec3 GroupMesh::colorOf(size_t molecule) const {
-    const Material& looks = group_->molecule.material;
-    const glm::dvec3 first = group_->color.value_or(looks.color);
-    const glm::dvec3 second = group_->secondColor
-                                  ? *group_->secondColor
-                                  : group_->color.value_or(looks.secondColor.value_or(looks.color));
-    const float between = float(uniformFrom(hash(seeds_[molecule], 0xc0101u))),
-                brightness = float(uniformFrom(hash(seeds_[molecule], 0xc0102u)));
-    const float share = between * between * (1.5f - 0.5f * between);
-    return glm::mix(glm::vec3(first), glm::vec3(second), share) * (0.8f + 0.4f * brightness);
-}
-
-DrawnMesh GroupMesh::mesh(std::span<const size_t> molecules) const {
+DrawnMesh GroupMesh::mesh(std::span<const MoleculeState> molecules) const {
     DrawnMesh out;
     out.name = name();
     out.images = images_;
     for (size_t i = 0; i < molecules.size(); ++i) {
+        const Looks looks = looksOf(*group_, molecules[i]);
         out.uvs.insert(out.uvs.end(), uvs_.begin(), uvs_.end());
-        out.colors.insert(out.colors.end(), uvs_.size(), colorOf(molecules[i]));
+        out.colors.insert(out.colors.end(), uvs_.size(), looks.color);
+        if (group_->particle && group_->particle->blend != Blend::none)
+            out.opacities.insert(out.opacities.end(), uvs_.size(), looks.opacity);
+        if (points() && looks.size > 0) out.sizes.insert(out.sizes.end(), uvs_.size(), looks.size);
         for (const uint32_t corner : corners_)
             out.corners.push_back(uint32_t(i * uvs_.size()) + corner);
     }
@@ -147,6 +141,35 @@ DrawnMesh modelMesh(const Model& model) {
         if (model.roughness) material.roughness = *model.roughness;
         out.pieces.push_back({alike.first, alike.count, material});
     }
+    return out;
+}
+
+DrawnMesh colliderMesh(const Collider& collider, const glm::dvec3& eye, double time) {
+    DrawnMesh out;
+    if (!collider.draw) return out;
+    out.name = collider.name.empty() ? kindName(*collider.shape) : collider.name;
+    const ColliderMesh mesh = shoal::colliderMesh(collider);
+    const Pose pose = collider.path ? poseAt(*collider.path, time) : Pose{};
+    glm::dvec3 origin = pose.rotation * mesh.origin + pose.position;
+    double scale = 1;
+    const auto* plane = std::get_if<PlaneCollider>(&*collider.shape);
+    if (plane) {
+        const PlaneDisc disc =
+            seenOf({pose.rotation * plane->point + pose.position, pose.rotation * plane->normal}, eye);
+        origin = disc.foot;
+        scale = disc.radius;
+    }
+    std::vector<glm::dvec3> positions;
+    for (const glm::vec3& x : mesh.positions)
+        positions.push_back(origin + pose.rotation * (scale * glm::dvec3(x)));
+    recentre(out, positions);
+    for (const glm::vec3& n : mesh.normals)
+        out.normals.emplace_back(pose.rotation * glm::dvec3(n));
+    out.corners = mesh.corners;
+    SurfaceMaterial material;
+    material.color = glm::dvec4(collider.color, 1);
+    if (!plane) material.roughness = 0.5;
+    out.pieces.push_back({0, out.corners.size(), material});
     return out;
 }
 

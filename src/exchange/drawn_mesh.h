@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "exchange/looks.h"
 #include "geometry/mesh.h"
 #include "molecule/skin.h"
 #include "scene/scene.h"
@@ -20,7 +21,9 @@ struct DrawnMesh {
     std::vector<glm::vec2> uvs;        // (0, 0) lower left, as in molecules and models
     std::vector<glm::vec2>
         columns;  // second coordinates, (0, 0) upper left: where an animation texture is read
-    std::vector<glm::vec3> colors;  // linear RGB
+    std::vector<glm::vec3> colors;  // linear RGB in [0, 1]
+    std::vector<float> opacities;   // multiply the material's
+    std::vector<float> sizes;       // m, diameters of points
     std::vector<uint32_t> corners;  // three a triangle; empty: points
 
     // Corners that look alike; images are numbers in `images`.
@@ -35,29 +38,30 @@ struct DrawnMesh {
 // A group's molecules: which mesh each is drawn as, and where that lies when the molecule moves.
 class GroupMesh {
   public:
-    // `seeds`: one a molecule, which say its colour. Error: the material's image is missing or not a PNG.
-    GroupMesh(const Group& group, std::span<const uint32_t> seeds);
+    // Error: the material's image is missing or not a PNG.
+    explicit GroupMesh(const Group& group);
 
     const std::string& name() const { return group_->name; }
     size_t verticesEach() const { return uvs_.size(); }
     bool points() const { return corners_.empty(); }
+    bool looksChange() const { return exchange::looksChange(*group_); }
 
-    // Adds a molecule at the simulated vertices' `places` (m, of the scene) to `positions` and `normals`.
-    void place(std::span<const glm::dvec3> places, std::vector<glm::dvec3>& positions,
+    // Adds a molecule, as large as it has grown, to `positions` (m, of the scene) and `normals`.
+    void place(const MoleculeState& molecule, std::vector<glm::dvec3>& positions,
                std::vector<glm::vec3>& normals) const;
     // Adds its velocities (m/s), from the simulated vertices'; those of skins without what lifts them off
     // turning.
     void addVelocities(std::span<const glm::dvec3> simulated, std::vector<glm::vec3>& velocities) const;
     // Returns those molecules as one mesh, without positions and normals.
-    DrawnMesh mesh(std::span<const size_t> molecules) const;
+    DrawnMesh mesh(std::span<const MoleculeState> molecules) const;
     // As it is at rest, about the molecule's origin.
     std::vector<glm::dvec3> restPlaces() const;
     // Linear RGB.
-    glm::vec3 colorOf(size_t molecule) const;
+    glm::vec3 colorOf(const MoleculeState& molecule) const { return looksOf(*group_, molecule).color; }
 
   private:
     const Group* group_;
-    std::vector<uint32_t> seeds_, corners_;
+    std::vector<uint32_t> corners_;
     std::vector<glm::vec2> uvs_;
     std::vector<SkinFrame> frames_;
     SurfaceMaterial material_;
@@ -65,6 +69,10 @@ class GroupMesh {
 };
 
 DrawnMesh modelMesh(const Model& model);
+
+// A collider as it is drawn for an eye (m) at a time (s), which a plane's disc lies about; without positions:
+// it shows as its model, or not at all.
+DrawnMesh colliderMesh(const Collider& collider, const glm::dvec3& eye, double time);
 
 // Columns: right, up, towards the eye.
 glm::dmat3 directionsOf(const Camera& camera);

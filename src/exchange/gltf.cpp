@@ -121,7 +121,12 @@ class Glb {
             uvs.emplace_back(uv.x, 1 - uv.y);
         vertices("TEXCOORD_0", uvs, "VEC2");
         vertices("TEXCOORD_1", mesh.columns, "VEC2");
-        vertices("COLOR_0", mesh.colors, "VEC3");
+        std::vector<glm::vec4> blended;
+        for (size_t i = 0; i < mesh.opacities.size(); ++i)
+            blended.emplace_back(mesh.colors[i], mesh.opacities[i]);
+        vertices("COLOR_0", blended, "VEC4");
+        if (blended.empty()) vertices("COLOR_0", mesh.colors, "VEC3");
+        vertices("_SIZE", mesh.sizes, "SCALAR");
         std::vector<JsonValue> primitives;
         for (const DrawnMesh::Piece& piece : mesh.pieces) {
             JsonValue primitive =

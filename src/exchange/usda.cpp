@@ -1,77 +1,21 @@
 #include "exchange/usda.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <deque>
 #include <set>
 
 #include "core/error.h"
+#include "exchange/usda_materials.h"
+#include "exchange/usda_text.h"
 
 namespace shoal::exchange {
 
 namespace fs = std::filesystem;
+using usda::list, usda::text;
 
 namespace {
-
-void put(std::string& out, double value) {
-    char digits[40];
-    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-void put(std::string& out, float value) {
-    char digits[32];
-    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-void put(std::string& out, uint32_t value) {
-    out += std::to_string(value);
-}
-// Places in single precision, as USD has them.
-void put(std::string& out, const glm::dvec3& v) {
-    out += '(';
-    for (int i = 0; i < 3; ++i) {
-        if (i > 0) out += ',';
-        put(out, float(v[i]));
-    }
-    out += ')';
-}
-void put(std::string& out, const glm::vec3& v) {
-    put(out, glm::dvec3(v));
-}
-void put(std::string& out, const glm::vec2& v) {
-    out += '(';
-    put(out, v.x);
-    out += ',';
-    put(out, v.y);
-    out += ')';
-}
-// The real part first.
-void put(std::string& out, const glm::quat& q) {
-    out += '(';
-    put(out, q.w);
-    for (const float part : {q.x, q.y, q.z}) {
-        out += ',';
-        put(out, part);
-    }
-    out += ')';
-}
-
-template <typename Values>
-std::string list(const Values& values) {
-    std::string out = "[";
-    for (const auto& value : values) {
-        if (out.size() > 1) out += ',';
-        put(out, value);
-    }
-    return out + "]";
-}
-
-template <typename T>
-std::string text(const T& value) {
-    std::string out;
-    put(out, value);
-    return out;
-}
 
 // A name as USD takes it.
 std::string identifier(const std::string& name) {
@@ -123,6 +67,8 @@ constexpr Sampled attributes[] = {
     {"point3f[] positions", ""},
     {"quath[] orientations", ""},
     {"texCoord2f[] primvars:st", "vertex"},
+    {"float[] primvars:displayOpacity", "vertex"},
+    {"float[] widths", "vertex"},
 };
 constexpr size_t attributeCount = std::size(attributes);
 
@@ -145,11 +91,12 @@ struct UsdStage::Parts {
     fs::path file;    // the stage's own
     fs::path frames;  // folder of clips; empty: none
     double rate;
-    std::string body, materials;
+    std::string body;
+    UsdMaterials materials{{}};
     std::deque<Moving> moving;
     std::set<std::string> names;
     std::vector<std::string> written;
-    int first = 0, last = -1, materialCount = 0;
+    int first = 0, last = -1;
 
     std::string uniqueName(const std::string& wanted) {
         const std::string base = identifier(wanted);
@@ -161,83 +108,6 @@ struct UsdStage::Parts {
 
     void note(const fs::path& path) { written.push_back(path.string()); }
 
-    std::string imageFile(const DrawnMesh& mesh, int image, const std::string& material) {
-        const fs::path path =
-            file.parent_path() / concat(file.stem().string(), "-", material, "-", image, ".png");
-        writePng(path, mesh.images[size_t(image)]);
-        note(path);
-        return path.filename().string();
-    }
-
-    // Returns the material's path.
-    std::string material(const DrawnMesh& mesh, const SurfaceMaterial& looks) {
-        const std::string name = concat("m", materialCount++), path = "/scene/materials/" + name;
-        std::string inputs, shaders;
-        const auto reader = [&](const char* reads, int image, const char* output, const char* space) {
-            const std::string shader = concat(reads, "Image");
-            shaders += concat("            def Shader \"", shader,
-                              "\"\n            {\n                uniform token info:id = \"UsdUVTexture\"\n"
-                              "                asset inputs:file = @./",
-                              imageFile(mesh, image, name),
-                              "@\n                token inputs:sourceColorSpace = \"", space,
-                              "\"\n                token inputs:wrapS = \"repeat\"\n"
-                              "                token inputs:wrapT = \"repeat\"\n"
-                              "                float2 inputs:st.connect = <",
-                              path, "/st.outputs:result>\n                ", output, "\n            }\n");
-            return concat("<", path, "/", shader);
-        };
-        const auto scalar = [&](const char* input, double value) {
-            inputs += concat("                float inputs:", input, " = ", value, "\n");
-        };
-        if (looks.colorImage >= 0) {
-            const std::string at = reader("color", looks.colorImage,
-                                          "float3 outputs:rgb\n                float outputs:a", "sRGB");
-            inputs += concat("                color3f inputs:diffuseColor.connect = ", at, ".outputs:rgb>\n");
-            if (looks.alpha != SurfaceMaterial::Alpha::opaque)
-                inputs += concat("                float inputs:opacity.connect = ", at, ".outputs:a>\n");
-        } else if (!mesh.colors.empty()) {
-            shaders +=
-                "            def Shader \"vertexColor\"\n            {\n"
-                "                uniform token info:id = \"UsdPrimvarReader_float3\"\n"
-                "                string inputs:varname = \"displayColor\"\n"
-                "                float3 outputs:result\n            }\n";
-            inputs += concat("                color3f inputs:diffuseColor.connect = <", path,
-                             "/vertexColor.outputs:result>\n");
-            if (looks.color.a < 1) scalar("opacity", looks.color.a);
-        } else {
-            inputs +=
-                concat("                color3f inputs:diffuseColor = ", text(glm::dvec3(looks.color)), "\n");
-            if (looks.color.a < 1) scalar("opacity", looks.color.a);
-        }
-        if (looks.alpha == SurfaceMaterial::Alpha::cut) scalar("opacityThreshold", looks.alphaCut);
-        if (looks.normalImage >= 0)
-            inputs +=
-                concat("                normal3f inputs:normal.connect = ",
-                       reader("normal", looks.normalImage, "float3 outputs:rgb", "raw"), ".outputs:rgb>\n");
-        if (looks.roughnessImage >= 0) {
-            const std::string at = reader("roughness", looks.roughnessImage,
-                                          "float outputs:g\n                float outputs:b", "raw");
-            inputs += concat("                float inputs:roughness.connect = ", at, ".outputs:g>\n",
-                             "                float inputs:metallic.connect = ", at, ".outputs:b>\n");
-        } else {
-            scalar("roughness", looks.roughness);
-            scalar("metallic", looks.metallic);
-        }
-        if (looks.emissive != glm::dvec3(0))
-            inputs += concat("                color3f inputs:emissiveColor = ", text(looks.emissive), "\n");
-        materials +=
-            concat("        def Material \"", name,
-                   "\"\n        {\n            token outputs:surface.connect = <", path,
-                   "/surface.outputs:surface>\n            def Shader \"surface\"\n            {\n"
-                   "                uniform token info:id = \"UsdPreviewSurface\"\n",
-                   inputs, "                token outputs:surface\n            }\n", shaders,
-                   "            def Shader \"st\"\n            {\n"
-                   "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
-                   "                string inputs:varname = \"st\"\n                float2 outputs:result\n"
-                   "            }\n        }\n");
-        return path;
-    }
-
     static std::string line(const std::string& words) { return "        " + words + "\n"; }
     static std::string counts(size_t corners) {
         std::string out = "[";
@@ -247,7 +117,7 @@ struct UsdStage::Parts {
     }
 
     // All of a mesh that is not where it is.
-    std::string topology(const DrawnMesh& mesh, bool changes, bool colors = true) {
+    std::string topology(const DrawnMesh& mesh, bool changes, bool colors) {
         std::string out;
         if (mesh.corners.empty()) return out;
         if (!changes) {
@@ -258,10 +128,10 @@ struct UsdStage::Parts {
         out += line("uniform bool doubleSided = 1");
         if (!mesh.uvs.empty() && !changes)
             out += line("texCoord2f[] primvars:st = " + list(mesh.uvs) + interpolated("vertex"));
-        if (!mesh.colors.empty() && !changes && colors)
+        if (!mesh.colors.empty() && colors)
             out += line("color3f[] primvars:displayColor = " + list(mesh.colors) + interpolated("vertex"));
         if (mesh.pieces.size() == 1) {
-            out += line("rel material:binding = <" + material(mesh, mesh.pieces[0].material) + ">");
+            out += line("rel material:binding = <" + materials.add(mesh, mesh.pieces[0].material) + ">");
             return out;
         }
         for (size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -274,7 +144,7 @@ struct UsdStage::Parts {
                 "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
                 "        )\n        {\n            uniform token elementType = \"face\"\n"
                 "            uniform token familyName = \"materialBind\"\n            int[] indices = ",
-                list(faces), "\n            rel material:binding = <", material(mesh, piece.material),
+                list(faces), "\n            rel material:binding = <", materials.add(mesh, piece.material),
                 ">\n        }\n");
         }
         return out;
@@ -348,6 +218,7 @@ UsdStage::UsdStage(const fs::path& target, double frameRate) : parts_(std::make_
     }
     parts_->names = {"materials"};
     checkWritable(parts_->file);
+    parts_->materials = UsdMaterials(parts_->file);
 }
 
 UsdStage::~UsdStage() = default;
@@ -358,7 +229,7 @@ const std::vector<std::string>& UsdStage::written() const {
 
 void UsdStage::add(const DrawnMesh& mesh) {
     Parts& p = *parts_;
-    p.body += Parts::prim("Mesh", p.uniqueName(mesh.name)) + p.topology(mesh, false) +
+    p.body += Parts::prim("Mesh", p.uniqueName(mesh.name)) + p.topology(mesh, false, true) +
               Parts::line("point3f[] points = " + list(mesh.positions));
     if (!mesh.normals.empty())
         p.body += Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex"));
@@ -385,6 +256,21 @@ void UsdStage::add(const Camera& camera) {
         "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n");
 }
 
+// The looks of points that do not change; dots of so many pixels have a width that no one sees.
+static std::string pointLooks(const DrawnMesh& mesh, bool change) {
+    std::string out;
+    if (mesh.sizes.empty())
+        out += "        float[] widths = [0.01]" + interpolated("constant") + "\n";
+    else if (!change)
+        out += "        float[] widths = " + list(mesh.sizes) + interpolated("vertex") + "\n";
+    if (change) return out;
+    out += "        color3f[] primvars:displayColor = " + list(mesh.colors) + interpolated("vertex") + "\n";
+    if (!mesh.opacities.empty())
+        out += "        float[] primvars:displayOpacity = " + list(mesh.opacities) + interpolated("vertex") +
+               "\n";
+    return out;
+}
+
 size_t UsdStage::addMoving(const DrawnMesh& mesh, const UsdMoving& how) {
     Parts& p = *parts_;
     Parts::Moving& it = p.moving.emplace_back();
@@ -395,22 +281,22 @@ size_t UsdStage::addMoving(const DrawnMesh& mesh, const UsdMoving& how) {
         std::vector<glm::vec3> scales;
         for (const float scale : how.instances)
             scales.emplace_back(scale);
-        it.head =
-            Parts::line("int[] protoIndices = " + list(zeros)) +
-            Parts::line("float3[] scales = " + list(scales)) +
-            Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
-            Parts::line("color3f[] primvars:displayColor = " + list(how.colors) + interpolated("vertex")) +
-            Parts::prim("Mesh", "molecule") + p.topology(mesh, false, false) +
-            Parts::line("point3f[] points = " + list(mesh.positions)) +
-            Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) + "    }\n";
+        it.head = Parts::line("int[] protoIndices = " + list(zeros)) +
+                  Parts::line("float3[] scales = " + list(scales)) +
+                  Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
+                  (how.looksChange ? std::string()
+                                   : Parts::line("color3f[] primvars:displayColor = " + list(how.colors) +
+                                                 interpolated("vertex"))) +
+                  Parts::prim("Mesh", "molecule") + p.topology(mesh, false, false) +
+                  Parts::line("point3f[] points = " + list(mesh.positions)) +
+                  Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) +
+                  "    }\n";
     } else if (mesh.corners.empty()) {
-        const std::vector<float> widths = {float(how.width)};
-        it.head = Parts::line("float[] widths = " + list(widths) + interpolated("constant"));
-        if (!mesh.colors.empty() && !how.changes)
-            it.head += Parts::line("color3f[] primvars:displayColor = " + list(mesh.colors) +
-                                   interpolated("vertex"));
+        it.head =
+            pointLooks(mesh, how.looksChange) +
+            Parts::line("rel material:binding = <" + p.materials.add(mesh, mesh.pieces[0].material) + ">");
     } else {
-        it.head = p.topology(mesh, how.changes);
+        it.head = p.topology(mesh, how.changes, !how.looksChange);
     }
     it.origin = how.origin;
     it.head += Parts::moved(how.origin);
@@ -423,7 +309,20 @@ void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
     const auto put = [&](size_t attribute, const auto& values) {
         if (!values.empty()) p.sampleOf(it, attribute, frame, list(values));
     };
-    enum { points, normals, velocities, extent, indices, counts, colors, positions, orientations, uvs };
+    enum {
+        points,
+        normals,
+        velocities,
+        extent,
+        indices,
+        counts,
+        colors,
+        positions,
+        orientations,
+        uvs,
+        opacities,
+        widths
+    };
     const bool instances = it.kind == std::string_view("PointInstancer");
     std::vector<glm::dvec3> places = sample.points;
     for (glm::dvec3& place : places)
@@ -436,6 +335,8 @@ void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
     if (!sample.corners.empty()) p.sampleOf(it, counts, frame, Parts::counts(sample.corners.size()));
     put(colors, sample.colors);
     put(uvs, sample.uvs);
+    put(opacities, sample.opacities);
+    put(widths, sample.widths);
     if (instances || places.empty()) return;
     glm::dvec3 low = places[0], high = low;
     for (const glm::dvec3& x : places)
@@ -460,6 +361,7 @@ void UsdStage::endFrame(int frame) {
 
 void UsdStage::finish() {
     Parts& p = *parts_;
+    p.written.insert(p.written.end(), p.materials.images().begin(), p.materials.images().end());
     if (!p.frames.empty()) {
         std::string manifest = "#usda 1.0\n(\n    defaultPrim = \"scene\"\n)\n\nover \"scene\"\n{\n";
         for (const Parts::Moving& it : p.moving) {
@@ -489,7 +391,8 @@ void UsdStage::finish() {
         }
         write("    }\n");
     }
-    if (!p.materials.empty()) write("    def Scope \"materials\"\n    {\n" + p.materials + "    }\n");
+    if (!p.materials.text().empty())
+        write("    def Scope \"materials\"\n    {\n" + p.materials.text() + "    }\n");
     write("}\n");
     out.finish();
     p.note(p.file);

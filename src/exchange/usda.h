@@ -25,15 +25,17 @@ struct UsdSample {
     std::vector<glm::vec3> normals, velocities;
     std::vector<glm::quat> turns;   // of instances
     std::vector<uint32_t> corners;  // only where the number of molecules changes
-    std::vector<glm::vec3> colors;  // likewise
     std::vector<glm::vec2> uvs;     // likewise
+    std::vector<glm::vec3> colors;  // only where looks change
+    std::vector<float> opacities;   // likewise
+    std::vector<float> widths;      // likewise; m, of points
 };
 
 // How something moves.
 struct UsdMoving {
-    glm::dvec3 origin{0};  // m: samples are written relative to it, where places are far from 0
-    double width = 0.01;   // m, of points
-    bool changes = false;  // the number of molecules does: samples say corners, colours and coordinates
+    glm::dvec3 origin{0};      // m: samples are written relative to it, where places are far from 0
+    bool changes = false;      // the number of molecules does: samples say corners and coordinates
+    bool looksChange = false;  // samples say colours, opacities and widths
     // Scales of instances: each is the mesh, turned and moved; empty: there are none.
     std::vector<float> instances;
     std::vector<glm::vec3> colors;  // of instances, linear RGB, in place of the mesh's

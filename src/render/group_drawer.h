@@ -36,6 +36,7 @@ class GroupDrawer {
     GroupDrawer& operator=(const GroupDrawer&) = delete;
 
     size_t index() const { return reader_.index; }  // of the group in the plan
+    const std::string& groupName() const { return name_; }
     int count() const { return count_; }
     // All that is drawn of a molecule, and then coarser and coarser levels of it.
     const std::vector<DrawStream>& streams() const { return streams_; }
@@ -113,7 +114,7 @@ class MoleculeDrawer : public GroupDrawer {
     void setShape(const gpu::Program& program, float pixelsPerMeter) const;
 
     Material material_;
-    glm::vec3 color_{0}, secondColor_{0};
+    InstanceColors colors_;
     bool points_;
     std::vector<std::string> skinDefines_;  // none: the molecule's own triangles are drawn
     double grow_ = 0, shrink_ = 0;          // s (scene/emitter.h)

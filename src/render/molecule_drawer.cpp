@@ -50,9 +50,7 @@ void MoleculeDrawer::change(const Group& group) {
     material_.roughness = looks.roughness;
     material_.translucency = looks.translucency;
     material_.opacity = looks.opacity;
-    color_ = group.color.value_or(looks.color);
-    secondColor_ = group.secondColor ? *group.secondColor
-                                     : group.color.value_or(looks.secondColor.value_or(looks.color));
+    colors_ = instanceColors(group);
 }
 
 template <typename Vertices>
@@ -149,8 +147,9 @@ const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const Shado
 const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& program = beginLit(state, inputs);
     if (!scale_) {
-        program.set("firstColor", color_);
-        program.set("secondColor", secondColor_);
+        program.set("firstColor", glm::vec3(colors_.first));
+        program.set("secondColor", glm::vec3(colors_.second));
+        program.set("variation", float(colors_.variation));
     }
     program.set("roughness", float(material_.roughness));
     program.set("metallic", float(material_.metallic));

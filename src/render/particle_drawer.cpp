@@ -130,23 +130,13 @@ void ParticleDrawer::chooseShaders(const Lighting& lighting) {
     litOptions_.label = name_ + " (picture)";
 }
 
-// The keyframes as pieces that are added up: shaders/particles/attributes.glsl.
 void ParticleDrawer::setColors(const gpu::Program& program) const {
-    const auto valueOf = [](const ColorKey& key) { return glm::vec4(key.color, key.opacity); };
-    const std::vector<ColorKey>& keys = type_.colors;
-    program.set("firstColor", valueOf(keys.front()));
-    if (!ages_ || keys.size() < 2) return;
-    std::array<glm::vec4, mostColorKeys - 1> changes{};
-    glm::vec3 begins(0), perAge(0);
-    for (size_t i = 0; i + 1 < keys.size(); ++i) {
-        const auto at = glm::length_t(i);
-        changes[i] = valueOf(keys[i + 1]) - valueOf(keys[i]);
-        begins[at] = float(keys[i].age);
-        perAge[at] = float(1 / (keys[i + 1].age - keys[i].age));
-    }
-    program.set("colorChanges", std::span<const glm::vec4>(changes));
-    program.set("colorBegins", begins);
-    program.set("colorPerAge", perAge);
+    const ColorPieces pieces = colorPieces(type_.colors);
+    program.set("firstColor", pieces.first);
+    if (!ages_ || type_.colors.size() < 2) return;
+    program.set("colorChanges", std::span<const glm::vec4>(pieces.changes));
+    program.set("colorBegins", pieces.begins);
+    program.set("colorPerAge", pieces.perAge);
 }
 
 void ParticleDrawer::setType(const gpu::Program& program) const {

@@ -241,6 +241,19 @@ std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& w
     return out;
 }
 
+ColorPieces colorPieces(const std::vector<ColorKey>& keys) {
+    const auto valueOf = [](const ColorKey& key) { return glm::vec4(key.color, key.opacity); };
+    ColorPieces out;
+    out.first = valueOf(keys.front());
+    for (size_t i = 0; i + 1 < keys.size(); ++i) {
+        const auto at = glm::length_t(i);
+        out.changes[i] = valueOf(keys[i + 1]) - valueOf(keys[i]);
+        out.begins[at] = float(keys[i].age);
+        out.perAge[at] = float(1 / (keys[i + 1].age - keys[i].age));
+    }
+    return out;
+}
+
 static constexpr double leastAgeGap = 0.01;
 
 double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age) {

@@ -2,6 +2,7 @@
 // it is drawn, never stored [Latta 2004, section 3.3]. A group of particles has one type.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,14 @@ struct ParticleType {
 const Description& describe(const ColorKey*);
 const Description& describe(const ParticleImage*);
 const Description& describe(const ParticleType*);
+
+// The keyframes as up to three straight pieces that are added up (shaders/particles/attributes.glsl).
+struct ColorPieces {
+    glm::vec4 first{1};                                  // linear RGB and opacity
+    std::array<glm::vec4, mostColorKeys - 1> changes{};  // of each piece
+    glm::vec3 begins{0}, perAge{0};                      // ages, and 1 / their lengths; 0: no piece
+};
+ColorPieces colorPieces(const std::vector<ColorKey>& keys);
 
 // Between its neighbours in age, so that the keyframes stay in order.
 double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age);

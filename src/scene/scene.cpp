@@ -13,6 +13,17 @@ const std::vector<std::string> responseWords = {"simultaneous", "nearest"};
 
 }  // namespace
 
+InstanceColors instanceColors(const Group& group) {
+    const Material& material = group.molecule.material;
+    InstanceColors out;
+    out.first = group.color.value_or(material.color);
+    const std::optional<glm::dvec3> second =
+        group.secondColor || group.color ? group.secondColor : material.secondColor;
+    out.second = second.value_or(out.first);
+    out.variation = group.variation.value_or(second ? usualVariation : 0);
+    return out;
+}
+
 const char* name(FieldSampling sampling) {
     return samplingWords[size_t(sampling)].c_str();
 }

@@ -99,9 +99,21 @@ struct Group {
     std::string surface;                           // what it is made of, for surfacePairs
     double restitution = 0.2, friction = 0.5;      // against other groups
     std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
-    std::optional<ColorScale> colorBy;             // in place of those
-    Location location;                             // of the group in the file, for messages
+    // Share by which the brightness of instances varies, in [0, 1]; nothing: usualVariation with a second
+    // colour, else 0.
+    std::optional<double> variation;
+    std::optional<ColorScale> colorBy;  // in place of those
+    Location location;                  // of the group in the file, for messages
 };
+
+// The colours that the instances of a group of molecules lie between, and how their brightness varies
+// (shaders/render/looks.glsl).
+struct InstanceColors {
+    glm::dvec3 first{0}, second{0};  // linear RGB
+    double variation = 0;
+};
+InstanceColors instanceColors(const Group& group);
+constexpr double usualVariation = 0.2;
 
 // ---- The rest
 

@@ -28,6 +28,8 @@ struct Snapshot {
     std::vector<glm::vec3> normals;                 // unit; zero where the shape has no triangles
     std::vector<bool> released;                     // per molecule: pins are released
     std::vector<bool> alive;                        // per molecule; empty: all, for ever
+    std::vector<glm::vec2> lives;                   // x age, y length of life, s; empty likewise
+    std::vector<uint32_t> seeds;                    // per molecule
 };
 
 // All that a run goes on from, exact to the bit: another simulation of the same plan, on any path, can

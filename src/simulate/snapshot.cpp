@@ -58,6 +58,8 @@ Snapshot Simulation::snapshot(size_t index) const {
         out.positions.push_back(glm::dvec3(state.anchors[i / vertices]) + glm::dvec3(state.positions[i]));
     for (const glm::vec2& life : state.lives)
         out.alive.push_back(life.x < life.y);
+    out.lives = state.lives;
+    out.seeds = state.seeds.empty() ? group.constants.seeds : state.seeds;
     out.released.assign(state.released.begin(), state.released.end());
     out.normals.resize(state.positions.size());
     if (options_.drawn && group.needs.normals) out.normals = path_->readNormals(index);

@@ -64,9 +64,7 @@ std::vector<std::string> moleculesFor(const std::string& sceneFile) {
 // scene's and are saved; what the molecule's file says is changed for this run only, in `choice`.
 bool drawMaterial(Group& group, GroupChoice& choice) {
     Material& material = group.molecule.material;
-    const glm::dvec3 first = group.color.value_or(material.color);
-    const glm::dvec3 second =
-        group.secondColor.value_or(group.color.value_or(material.secondColor.value_or(material.color)));
+    const InstanceColors colors = instanceColors(group);
     bool changed = false;
     const auto color = [&](const char* name, glm::dvec3 shown, std::optional<glm::dvec3>& chosen) {
         const Key& key = *describe(&group).find(name);
@@ -83,8 +81,14 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
         changed = true;
     };
     if (!group.colorBy) {
-        color("color", first, group.color);
-        color("secondColor", second, group.secondColor);
+        color("color", colors.first, group.color);
+        color("secondColor", colors.second, group.secondColor);
+        const Key& key = *describe(&group).find("variation");
+        double variation = colors.variation;
+        if (slide({"variation", key.says.sentence.c_str()}, limitOf(key), variation)) {
+            group.variation = variation;
+            changed = true;
+        }
     }
     share("roughness", material.roughness, choice.roughness);
     if (!group.molecule.triangles.empty()) share("translucency", material.translucency, choice.translucency);

@@ -35,6 +35,7 @@ for (const file of stages) {
     const geometry = new native.TinyUSDZLoaderNative();
     if (!geometry.loadFromBinary(new TextEncoder().encode(text), file)) throw new Error(geometry.error());
     const meshes = Array.from({ length: geometry.numMeshes() }, (_, i) => geometry.getMesh(i));
-    const first = meshes.length > 0 ? [...meshes[0].points.slice(0, 3)].map((x) => x.toFixed(5)).join(' ') : 'none';
+    // Colliders and models stand before what moves.
+    const first = meshes.length > 0 ? [...meshes.at(-1).points.slice(0, 3)].map((x) => x.toFixed(5)).join(' ') : 'none';
     console.log(`tinyusdz: ${meshes.length} meshes, first point ${first}`);
 }

@@ -68,7 +68,7 @@ inline const char* const smallScene = R"({
     {"molecule": "blade.json", "count": 4, "place": {"on": "surface", "model": "hill", "align": "up", "turn": "none"},
      "drag": 2, "held": false, "velocity": [1, 0, 0], "spin": [0, 1, 0], "phaseSpread": 6, "collide": false},
     {"molecule": "blade.json", "count": 5, "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 0, 1]},
-     "turn": "any"}, "stiffness": 2, "damping": 3, "color": [1, 0, 0], "secondColor": [0, 1, 0]},
+     "turn": "any"}, "stiffness": 2, "damping": 3, "color": [1, 0, 0], "secondColor": [0, 1, 0], "variation": 0.5},
     {"molecule": "blade.json", "place": {"on": "grid", "spacing": [1, 1, 1], "cells": [2, 3, 4], "scale": 3}},
     {"molecule": "blade.json", "place": {"on": "list", "items": [
       {"position": [1, 2, 3], "rotation": [0, 0, 2, 2], "scale": 2}, {}]}},

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "scene/particle.h"
 #include "support/catch.h"
 
 // GLSL converts and shadows as it likes; the project's own C++ does not.
@@ -51,6 +52,19 @@ TEST_CASE("colours: straight lines between keyframes", "[particle]") {
     CHECK(near(at(0), key[0]));
     // A piece that is not there changes nothing.
     CHECK(near(colorAt(1, key[0], key[1] - key[0], vec4(9), vec4(9), vec3(0), vec3(2, 0, 0)), key[1]));
+}
+
+TEST_CASE("keyframes become pieces", "[particle]") {
+    using shoal::ColorKey;
+    const std::vector<ColorKey> keys = {{0, {1, 0, 0}, 1}, {0.25, {0, 2, 0}, 0.5}, {1, {0, 0, 1}, 0.2}};
+    const shoal::ColorPieces pieces = shoal::colorPieces(keys);
+    const auto at = [&](float age) {
+        return colorAt(age, pieces.first, pieces.changes[0], pieces.changes[1], pieces.changes[2],
+                       pieces.begins, pieces.perAge);
+    };
+    for (const ColorKey& key : keys)
+        CHECK(near(at(float(key.age)), vec4(vec3(key.color), float(key.opacity))));
+    CHECK(near(at(0.625f), vec4(0, 1, 0.5f, 0.35f)));
 }
 
 TEST_CASE("flip-books: which frames show", "[particle]") {

@@ -143,7 +143,7 @@ void derive(Group& group, const Where& where) {
     if (!group.particle && !where.given("molecule"))
         throw Error(where.here(), "missing key: give a \"molecule\" or a \"particle\"");
     if (group.particle)
-        for (const char* key : {"molecule", "color", "secondColor"})
+        for (const char* key : {"molecule", "color", "secondColor", "variation"})
             if (where.given(key))
                 throw Error(where.at(key), "\"", key, "\" is of molecules, and this group has a particle");
     if (group.particle) group.molecule = moleculeOf(*group.particle);
@@ -165,7 +165,7 @@ void checkGroup(const Group& group, const Where& where) {
     if (group.contact && group.contact->triangles && group.molecule.triangles.empty())
         throw Error(where.in("contact").at("triangles"), "the molecule has no triangles");
     if (group.colorBy)
-        for (const char* key : {"color", "secondColor"})
+        for (const char* key : {"color", "secondColor", "variation"})
             if (where.given(key))
                 throw Error(where.at(key), "\"", key, "\" has no effect beside \"colorBy\"");
 }
@@ -229,12 +229,18 @@ const Description& describe(const Group*) {
                    {"", "The colour instead of the molecule's; alone it colours all instances alike."})
             .color("secondColor", &G::secondColor,
                    {"", "Instances vary between the colour and this one, instead of the molecule's."})
+            .key("variation", &G::variation,
+                 {"",
+                  "By what share the brightness of instances varies; 0: those of one colour are all alike.",
+                  Range::between(0, 1)})
+            .usually("0.2 with a second colour, else 0")
             .key("colorBy", &G::colorBy, {"", "Colours by speed, in place of those."})
             .derive(derive)
             .rule(checkGroup, R"({"anyOf": [{"required": ["place"]}, {"required": ["emitters"]}],
                 "oneOf": [{"required": ["molecule"]},
                           {"required": ["particle"],
-                           "not": {"anyOf": [{"required": ["color"]}, {"required": ["secondColor"]}]}}],
+                           "not": {"anyOf": [{"required": ["color"]}, {"required": ["secondColor"]},
+                                             {"required": ["variation"]}]}}],
                 "if": {"required": ["place"],
                        "properties": {"place": {"properties": {"on": {"enum": ["vertices", "surface", "volume"]}}}}},
                 "then": {"required": ["count"]}})");

@@ -9,7 +9,7 @@ namespace shoal {
 namespace {
 
 // The keys of a group that can be edited while a scene runs.
-constexpr std::initializer_list<const char*> edited = {"particle", "color", "secondColor",
+constexpr std::initializer_list<const char*> edited = {"particle", "color", "secondColor", "variation",
                                                        "school",   "life",  "emitters"};
 
 JsonValue editable(const Scene& scene, const Group& group) {
@@ -61,6 +61,7 @@ void copyEdited(const Group& from, Group& to) {
     to.school = from.school;
     to.color = from.color;
     to.secondColor = from.secondColor;
+    to.variation = from.variation;
 }
 
 std::string withEdits(const std::string& text, const Scene& before, const Scene& after) {
