@@ -1,5 +1,7 @@
 // The resolved light as a picture for the screen: exposure, film curve, sRGB, and a little dither, which keeps
-// the sky's gradient free of bands. Variants: BEAMS (water/rays.frag), OCCLUSION (render/occlusion.frag).
+// the sky's gradient free of bands. Variants: BEAMS (water/rays.frag), OCCLUSION (render/occlusion.frag); CLEAR, whose
+// light is multiplied by its alpha, the share of the pixel that is covered, and whose picture is not; LINEAR, light as it is
+// for a compositor, multiplied by alpha.
 
 #include "physics/random.glsl"
 #include "render/tone.glsl"
@@ -35,7 +37,14 @@ out vec4 fragment;
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 radiance = unsqueeze(texelFetch(light, pixel, 0).rgb);
+    vec4 stored = texelFetch(light, pixel, 0);
+#ifdef CLEAR
+    float alpha = clamp(stored.a, 0.0, 1.0);
+    vec3 radiance = unsqueeze(stored.rgb / max(alpha, 1e-4));
+#else
+    const float alpha = 1.0;
+    vec3 radiance = unsqueeze(stored.rgb);
+#endif
 #ifdef OCCLUSION
     radiance = occluded(radiance, pixel);
 #endif
@@ -47,7 +56,11 @@ void main()
     // over that no number at all.
     const float brightest = 6e4;
     radiance = mix(min(radiance, vec3(brightest)), vec3(brightest), isnan(radiance));
+#ifdef LINEAR
+    fragment = vec4(radiance * alpha, alpha);
+#else
     vec3 shown = encodeSrgb(toneMap(radiance));
     float dither = uniformFrom(hashSeed(uint(pixel.x), uint(pixel.y))) - 0.5;
-    fragment = vec4(shown + dither / 255.0, 1.0);
+    fragment = vec4(alpha > 0.0 ? shown + dither / 255.0 : vec3(0.0), alpha);
+#endif
 }

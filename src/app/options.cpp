@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "author/shapes.h"
 #include "core/file.h"
+#include "render/picture.h"
 #include "scene/json/scene_file.h"
 #include "window/interface.h"
 
@@ -105,9 +106,12 @@ void addRun(CLI::App& command, Options& options) {
     addSize(command, options, "Size of pictures, or of the window, in pixels");
     command
         .add_option("--capture", options.capture,
-                    "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)")
-        ->check(endsIn({".png", ".mp4", ".mkv", ".webm", ".mov"}, true))
+                    "Folder for PNG frames, a video (.mp4, .mkv, .webm, .mov), or .exr: light, depth and a "
+                    "mask of each group")
+        ->check(endsIn({".png", ".exr", ".mp4", ".mkv", ".webm", ".mov"}, true))
         ->type_name("TARGET");
+    command.add_flag("--transparent", options.transparent,
+                     "No sky behind: straight alpha in PNG, .mov and .webm, premultiplied in .exr");
     addWhole(command, "--capture-every", options.captureEvery, "Take every n-th frame", 1)
         ->capture_default_str();
     section(command, "State");
@@ -136,6 +140,7 @@ void addRun(CLI::App& command, Options& options) {
     needs(command, "--export-every", "--export");
     needs(command, "--export-cells", "--export");
     needs(command, "--capture-every", "--capture");
+    needs(command, "--transparent", "--capture");
     needs(command, "--screenshot", "--frames");
     excludes(command, "--export-every", {"--export-frames"});
     excludes(command, "--screenshot",
@@ -177,6 +182,9 @@ void checkTogether(const Options& options) {
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
+    if (options.transparent && isVideo(options.capture) && !isVideoWithAlpha(options.capture))
+        throw Error(concat("--transparent: ", lowerExtension(options.capture),
+                           " has no alpha; .mov (ProRes 4444), .webm (VP9), .png and .exr have"));
     const std::string kind = lowerExtension(options.exports);
     if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
         throw Error("--export-cells is of --export to .vtp or .pvd");

@@ -70,9 +70,10 @@ struct Options : RunRequest {
     int width = 1280, height = 720;
     std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for
 
-    std::string capture;   // folder, or a video's name
-    int captureEvery = 1;  // frames
-    std::string exports;   // folder, or a name that ends in .csv, .ply, .vtp or .pvd
+    std::string capture;       // folder, or a video's name
+    bool transparent = false;  // no sky behind: straight alpha
+    int captureEvery = 1;      // frames
+    std::string exports;       // folder, or a name that ends in .csv, .ply, .vtp or .pvd
     std::vector<int> exportFrames;
     std::optional<int> exportEvery;  // frames
     ExportCells exportCells = ExportCells::surface;

@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/export.h"
 #include "app/measure.h"
+#include "app/picture_layers.h"
 #include "app/report.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -116,9 +117,13 @@ class HeadlessRun {
         size.width = options.width;
         size.height = options.height;
         if (options.timings) size.timing = gpu::PassTimers::suitedTo(context.info());
+        size.clear = options.transparent;
+        size.layers = layered_ = lowerExtension(target) == ".exr";
+        if (options.transparent && scene_.water)
+            throw WrongUse("--transparent: the water of this scene fills the picture");
         renderer_ = std::make_unique<Renderer>(context, scene_, simulation_.plan(), size);
-        pictures_ =
-            std::make_unique<PictureWriter>(target, scene_.frameRate / every_, frames_ > every_, last_);
+        pictures_ = std::make_unique<PictureWriter>(target, scene_.frameRate / every_, frames_ > every_,
+                                                    last_, options.transparent);
     }
 
     void go() {
@@ -151,7 +156,7 @@ class HeadlessRun {
             addTo(report_.frames, context_.traffic() - before);
             outside([&] {
                 if (draws) {
-                    pictures_->write(renderer_->capture(), frame);
+                    writePicture(frame);
                     ++drawn_;
                     if (!isVideo(target())) report_.written.push_back(pictures_->last().string());
                 }
@@ -240,6 +245,12 @@ class HeadlessRun {
     }
     std::string target() const { return pictures_ ? pictures_->target() : std::string(); }
 
+    void writePicture(int frame) {
+        if (!layered_) return pictures_->write(renderer_->capture(), frame);
+        const View view = View::of(scene_.camera, simulation_.time());
+        writeLayers(pictures_->place(frame), renderer_->layers(simulation_.state(), view));
+    }
+
     // Prints what was written, and where: "pictures: pictures/hello, 8 pictures".
     void tellWritten() {
         if (drawn_ > 0) {
@@ -284,7 +295,8 @@ class HeadlessRun {
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;
     std::optional<Exporter> exporter_;
-    int drawn_ = 0;  // pictures
+    int drawn_ = 0;         // pictures
+    bool layered_ = false;  // .exr
     std::vector<std::string> exported_, saved_;
     RunReport report_;
 };

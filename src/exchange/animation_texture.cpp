@@ -13,16 +13,13 @@
 #include <Eigen/Dense>
 
 #include "core/error.h"
+#include "exchange/exr_stream.h"
 
 namespace shoal::exchange {
 
 namespace {
 
 constexpr size_t floatsEach = 7;  // of a column in the spool
-
-Error diskFull(const std::filesystem::path& file) {
-    return Error(Location{file.string(), 0, 0, {}}, "cannot be written: is the disk full?");
-}
 
 // Writes rows of float RGBA in [0, 1], from the top.
 class RowWriter {
@@ -97,25 +94,6 @@ class PngRows : public RowWriter {
     png_infop info_ = nullptr;
     std::vector<png_byte> bytes_;
     std::exception_ptr failure_;
-};
-
-// OpenEXR's stream into a file that is whole or not there.
-class ExrStream : public Imf::OStream {
-  public:
-    using Position = decltype(std::declval<Imf::OStream&>().tellp());  // differs between versions
-
-    explicit ExrStream(const std::filesystem::path& target) : OStream(target.c_str()), part_(target) {}
-    void write(const char data[], int count) override {
-        if (::pwrite(part_.file(), data, size_t(count), off_t(at_)) != count) throw diskFull(fileName());
-        at_ += Position(count);
-    }
-    Position tellp() override { return at_; }
-    void seekp(Position at) override { at_ = at; }
-    void finish() { part_.replaceTarget(); }
-
-  private:
-    PartFile part_;
-    Position at_ = 0;
 };
 
 class ExrRows : public RowWriter {

@@ -64,11 +64,15 @@ static void drawLevels(GroupDrawer& drawer, const LevelDraws& levels, const Stat
 void DrawnGroups::draw(const StateView& state, const DrawInputs& inputs) {
     if (inputs.multisampled) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     for (Drawn& group : groups_)
-        if (group.levels)
-            drawLevels(*group.drawer, *group.levels, state, inputs);
-        else if (group.blend == Blend::none)
-            group.drawer->submit(group.drawer->useLit(state, inputs), state);
+        if (group.blend == Blend::none) drawWhole(group, state, inputs);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void DrawnGroups::drawWhole(Drawn& group, const StateView& state, const DrawInputs& inputs) {
+    if (group.levels)
+        drawLevels(*group.drawer, *group.levels, state, inputs);
+    else
+        group.drawer->submit(group.drawer->useLit(state, inputs), state);
 }
 
 bool DrawnGroups::changeParticle(size_t group, const ParticleType& type, const Lighting& lighting) {
@@ -174,17 +178,18 @@ void DrawnGroups::order(const StateView& state, const Eye& eye) {
         if (group.slabDraws) group.slabDraws->update(*group.order, slabs_->bounds());
 }
 
-// The alpha of the picture stays 1 throughout.
+// Alpha adds up to what of a pixel is covered. What multiplies what lies behind covers nothing; what adds to
+// it counts as if it covered that: nothing in a picture says otherwise.
 static void setBlend(Blend blend) {
     switch (blend) {
     case Blend::none:
         glDisable(GL_BLEND);
         return;
     case Blend::alpha:
-        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         break;
     case Blend::additive:
-        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE, GL_ZERO, GL_ONE);
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         break;
     case Blend::multiplicative:
         glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
@@ -194,24 +199,46 @@ static void setBlend(Blend blend) {
 }
 
 void DrawnGroups::drawBlended(const StateView& state, const DrawInputs& inputs) {
-    const int count = slabs_ ? slabs_->count() : 1;
-    for (int slab = 0; slab < count; ++slab) {
+    const int slabs = slabs_ ? slabs_->count() : 1;
+    for (int slab = 0; slab < slabs; ++slab) {
         for (size_t i = 0; i < groups_.size(); ++i) {
             // The slabs begin at molecules of one group, which are the farthest there: it goes first.
             Drawn& group = groups_[i == 0 ? slabsOf_ : i <= slabsOf_ ? i - 1 : i];
             if (group.blend == Blend::none) continue;
             setBlend(group.blend);
-            const gpu::Program& program = group.drawer->useLit(state, inputs);
-            if (group.order) group.order->bind(program);
-            if (slabs_) program.set("slab", slab);
-            if (group.slabDraws) {
-                group.drawer->submitSlab(program, state, *group.slabDraws, slab);
-                continue;
-            }
-            if (slabs_) slabs_->bind(program);
-            group.drawer->submit(program, state);
+            drawSlab(group, slab, state, inputs);
         }
     }
+    setBlend(Blend::none);
+}
+
+void DrawnGroups::drawSlab(Drawn& group, int slab, const StateView& state, const DrawInputs& inputs) {
+    const gpu::Program& program = group.drawer->useLit(state, inputs);
+    if (group.order) group.order->bind(program);
+    if (slabs_) program.set("slab", slab);
+    if (group.slabDraws) {
+        group.drawer->submitSlab(program, state, *group.slabDraws, slab);
+        return;
+    }
+    if (slabs_) slabs_->bind(program);
+    group.drawer->submit(program, state);
+}
+
+void DrawnGroups::drawCover(size_t i, const StateView& state, const DrawInputs& inputs) {
+    Drawn& group = groups_[i];
+    if (group.blend == Blend::none) {
+        if (inputs.multisampled) {
+            glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+            glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+        }
+        drawWhole(group, state, inputs);
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+        return;
+    }
+    setBlend(Blend::alpha);
+    for (int slab = 0; slab < (slabs_ ? slabs_->count() : 1); ++slab)
+        drawSlab(group, slab, state, inputs);
     setBlend(Blend::none);
 }
 

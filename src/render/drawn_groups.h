@@ -30,6 +30,11 @@ class DrawnGroups {
     void order(const StateView& state, const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
 
+    size_t count() const { return groups_.size(); }  // of those that are drawn
+    const std::string& nameOf(size_t i) const { return groups_[i].drawer->groupName(); }
+    // Adds up in alpha what the i-th covers, after the picture was drawn.
+    void drawCover(size_t i, const StateView& state, const DrawInputs& inputs);
+
     // Calls ParticleDrawer::change for a group of the plan. True where the group is not drawn.
     bool changeParticle(size_t group, const ParticleType& type, const Lighting& lighting);
 
@@ -50,6 +55,8 @@ class DrawnGroups {
         float scale = 1;                       // of the largest molecule
     };
 
+    void drawWhole(Drawn& group, const StateView& state, const DrawInputs& inputs);
+    void drawSlab(Drawn& group, int slab, const StateView& state, const DrawInputs& inputs);
     void makeLevels(gpu::Context& context, const Plan& plan);
     void makeOrders(gpu::Context& context, const Plan& plan, int slabs);
 

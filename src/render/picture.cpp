@@ -41,11 +41,16 @@ static std::string withNumber(const std::string& name, int frame, int last) {
     return name.substr(0, percent) + number(frame, digits) + name.substr(end + 1);
 }
 
+static bool isPicture(const std::filesystem::path& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".png" || extension == ".exr";
+}
+
 std::filesystem::path frameFile(const std::string& target, int frame, bool many, int last) {
     if (target.find('%') != std::string::npos) return withNumber(target, frame, last);
     std::filesystem::path path(target);
     const std::string padded = number(frame, std::max(5, int(std::to_string(last).size())));
-    if (lowerExtension(path) != ".png") return path / ("frame-" + padded + ".png");
+    if (!isPicture(path)) return path / ("frame-" + padded + ".png");
     if (!many) return path;
     return path.parent_path() / (path.stem().string() + "-" + padded + path.extension().string());
 }
@@ -55,8 +60,13 @@ bool isVideo(const std::string& target) {
     return extension == ".mp4" || extension == ".mkv" || extension == ".webm" || extension == ".mov";
 }
 
-PictureWriter::PictureWriter(std::string target, double frameRate, bool many, int last)
-    : target_(std::move(target)), frameRate_(frameRate), many_(many), lastFrame_(last) {
+bool isVideoWithAlpha(const std::string& target) {
+    const std::string extension = lowerExtension(target);
+    return extension == ".webm" || extension == ".mov";
+}
+
+PictureWriter::PictureWriter(std::string target, double frameRate, bool many, int last, bool alpha)
+    : target_(std::move(target)), frameRate_(frameRate), many_(many), alpha_(alpha), lastFrame_(last) {
     if (isVideo(target_)) {
         VideoWriter::checkInstalled();
         PartFile{target_};  // can be written
@@ -64,7 +74,7 @@ PictureWriter::PictureWriter(std::string target, double frameRate, bool many, in
         frameFile(target_, 0, many_, lastFrame_);
     }
     const std::filesystem::path path(target_);
-    if (!isVideo(target_) && target_.find('%') == std::string::npos && lowerExtension(path) != ".png")
+    if (!isVideo(target_) && target_.find('%') == std::string::npos && !isPicture(path))
         sole_.emplace(path / "frame.png");
     else if (path.parent_path().string().find('%') == std::string::npos)  // else a folder a frame
         sole_.emplace(path);
@@ -72,15 +82,20 @@ PictureWriter::PictureWriter(std::string target, double frameRate, bool many, in
 
 void PictureWriter::write(const Image& picture, int frame) {
     if (!isVideo(target_)) {
-        if (frame > lastFrame_)
-            throw Error(concat(target_, ": frame ", frame, " is beyond the last that names have digits for"));
-        last_ = frameFile(target_, frame, many_, lastFrame_);
-        writePng(last_, picture);
+        writePng(place(frame), picture);
         return;
     }
-    if (!video_) video_ = std::make_unique<VideoWriter>(target_, picture.width, picture.height, frameRate_);
+    if (!video_)
+        video_ = std::make_unique<VideoWriter>(target_, picture.width, picture.height, frameRate_, alpha_);
     video_->write(picture);
     last_ = target_;
+}
+
+std::filesystem::path PictureWriter::place(int frame) {
+    if (frame > lastFrame_)
+        throw Error(concat(target_, ": frame ", frame, " is beyond the last that names have digits for"));
+    last_ = frameFile(target_, frame, many_, lastFrame_);
+    return last_;
 }
 
 void PictureWriter::finish() {

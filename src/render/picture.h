@@ -15,13 +15,15 @@ namespace shoal {
 void turnOver(Image& image);  // the last row becomes the first: OpenGL's come from the bottom
 
 // The file of one frame. `target` is a folder, which gets frame-00000.png and so on, or a name with one
-// %d or %05d in it, or a name ending in .png, which takes the frame's number only if `many`. Numbers are as
-// long as `last`, so that names sort. Error: more than one %, one that is no number, or one with too few
-// digits.
+// %d or %05d in it, or a name ending in .png or .exr, which takes the frame's number only if `many`. Numbers
+// are as long as `last`, so that names sort. Error: more than one %, one that is no number, or one with too
+// few digits.
 std::filesystem::path frameFile(const std::string& target, int frame, bool many = true, int last = 99999);
 
 // Whether `target` names a video: .mp4, .mkv, .webm or .mov.
 bool isVideo(const std::string& target);
+// Whether it is one with alpha: .mov (ProRes 4444) or .webm (VP9).
+bool isVideoWithAlpha(const std::string& target);
 
 // A video, encoded by the ffmpeg command, which gets the pictures through a pipe.
 class VideoWriter {
@@ -30,7 +32,8 @@ class VideoWriter {
     static void checkInstalled();  // Error: it is not; says how to get it
 
     // Error: ffmpeg cannot be started, or PartFile's.
-    VideoWriter(std::filesystem::path file, int width, int height, double frameRate);
+    // `alpha`: straight, of a file that isVideoWithAlpha.
+    VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha = false);
     ~VideoWriter();  // without finish(): nothing is left behind
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
@@ -57,11 +60,14 @@ class PictureWriter {
   public:
     // `last`: the greatest frame number. Error: ffmpeg is needed and not installed, frameFile's, or
     // SoleWriter's.
-    PictureWriter(std::string target, double frameRate, bool many = true, int last = 99999);
+    PictureWriter(std::string target, double frameRate, bool many = true, int last = 99999,
+                  bool alpha = false);
 
     // Error: disk full, no permission, ffmpeg failed, a video's pictures differ in size, or a frame of folder
     // or name is beyond the last.
     void write(const Image& picture, int frame);
+    // Where a frame's picture goes that is none for a video, for who writes it. Error: beyond the last.
+    std::filesystem::path place(int frame);
     void finish();  // a video gets its name only now
 
     const std::string& target() const { return target_; }
@@ -70,7 +76,7 @@ class PictureWriter {
   private:
     std::string target_;
     double frameRate_;
-    bool many_;
+    bool many_, alpha_;
     int lastFrame_;
     std::optional<SoleWriter> sole_;
     std::unique_ptr<VideoWriter> video_;

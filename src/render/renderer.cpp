@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/packing.hpp>
+
+#include "core/contract.h"
 #include "gpu/gl.h"
 #include "render/picture.h"
 
@@ -21,8 +24,9 @@ static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene&
 }
 
 static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
-                                               const AmbientOcclusion& occlusion) {
+                                               const AmbientOcclusion& occlusion, bool clear) {
     std::vector<std::string> out = lighting.toneDefines();
+    if (clear) out.emplace_back("CLEAR");
     if (beams) out.emplace_back("BEAMS");
     if (occlusion) out.emplace_back("OCCLUSION");
     return out;
@@ -66,10 +70,18 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
       sky_(context, {"render/screen.vert", "render/sky.frag", skyDefines(lighting_, scene.sky), {}, "sky"}),
       tone_(context, {"render/screen.vert",
                       "render/picture.frag",
-                      pictureDefines(lighting_, beams_, occlusion_),
+                      pictureDefines(lighting_, beams_, occlusion_, options.clear),
                       {},
                       "picture"}),
       timers_(context, options.timing) {
+    if (options.clear)
+        covered_ = gpu::Program(context, {"render/screen.vert", "render/covered.frag", {}, {}, "covered"});
+    if (options.layers) {
+        std::vector<std::string> defines = pictureDefines(lighting_, beams_, occlusion_, options.clear);
+        defines.emplace_back("LINEAR");
+        linear_ = gpu::Program(context,
+                               {"render/screen.vert", "render/picture.frag", defines, {}, "linear picture"});
+    }
     resize(options.width, options.height);
     if (scene.sky.clouds > 0) drawClouds(scene);
     if (!wideShadow_) return;
@@ -90,7 +102,11 @@ void Renderer::resize(int width, int height) {
     beams_.resize(width, height);
     occlusion_.resize(width, height);
     light_.setLinear();
-    if (!groups_.readsDepth() && !beams_ && !occlusion_ && !surfaces_.refracts()) return;
+    if (options_.layers) {
+        linearPicture_ = gpu::Texture(*context_, Format::rgba32f, width, height, "linear picture");
+        linearTarget_ = gpu::Framebuffer(*context_, {&linearPicture_}, nullptr, "linear picture");
+    }
+    if (!options_.layers && !groups_.readsDepth() && !beams_ && !occlusion_ && !surfaces_.refracts()) return;
     sceneDepth_ = gpu::Texture(*context_, Format::depth24, width, height, "scene depth");
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
@@ -117,7 +133,8 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     samples_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    if (options_.clear) glClearColor(0, 0, 0, 0);
+    glClear(options_.clear ? GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT : GL_DEPTH_BUFFER_BIT);
     {
         const auto timer = timers_.time("surfaces");
         surfaces_.draw(eye, lighting_, view.time, inputs.multisampled);
@@ -130,7 +147,10 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("overlay");
         overlay->draw(state, inputs);
     }
-    drawSky(eye);
+    if (options_.clear)
+        clearGround();
+    else
+        drawSky(eye);
     if (sceneDepth_) {
         const auto timer = timers_.time("depth");
         samples_.blitDepthTo(sceneDepthTarget_);
@@ -146,7 +166,8 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("occlusion");
         occlusion_.draw(eye, sceneDepth_);
     }
-    drawPicture(eye, view.exposure);
+    pictureTarget_.bind();
+    drawPicture(tone_, eye, view.exposure);
 }
 
 void Renderer::drawShadows(const StateView& state, double time) {
@@ -200,15 +221,87 @@ void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs, dou
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawPicture(const Eye& eye, double exposure) {
-    const auto timer = timers_.time("picture");
-    pictureTarget_.bind();
-    tone_.use();
-    tone_.texture("light", unit::light, light_);
-    if (beams_) tone_.texture("beams", unit::image, beams_.light());
-    if (occlusion_) occlusion_.apply(tone_, eye, sceneDepth_);
-    tone_.set("exposure", float(exposure));
+// Sets the alpha of what has been drawn to 1, and of all else to 0, whatever shaders have written.
+void Renderer::clearGround() {
+    glDepthMask(GL_FALSE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    glClear(GL_COLOR_BUFFER_BIT);
+    covered_.use();
+    glDepthFunc(GL_GREATER);  // the far plane lies behind
     gpu::drawVertices(3);
+    glDepthFunc(GL_LEQUAL);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+// Into the framebuffer that is bound.
+void Renderer::drawPicture(const gpu::Program& tone, const Eye& eye, double exposure) {
+    const auto timer = timers_.time("picture");
+    tone.use();
+    tone.texture("light", unit::light, light_);
+    if (beams_) tone.texture("beams", unit::image, beams_.light());
+    if (occlusion_) occlusion_.apply(tone, eye, sceneDepth_);
+    tone.set("exposure", float(exposure));
+    gpu::drawVertices(3);
+}
+
+namespace {
+
+// Rows from the bottom, `each` values a pixel.
+template <typename Value>
+std::vector<Value> readBack(const gpu::Texture& texture, size_t each) {
+    std::vector<Value> out(size_t(texture.width()) * size_t(texture.height()) * each);
+    texture.download(gpu::Traffic::Kind::parameters, 0, 0, texture.width(), texture.height(), out.data(),
+                     out.size() * sizeof(Value));
+    return out;
+}
+
+std::vector<float> turnedOver(const std::vector<float>& rows, size_t width) {
+    std::vector<float> out;
+    out.reserve(rows.size());
+    for (size_t end = rows.size(); end > 0; end -= width)
+        out.insert(out.end(), rows.begin() + std::ptrdiff_t(end - width), rows.begin() + std::ptrdiff_t(end));
+    return out;
+}
+
+}  // namespace
+
+// The depth of the last picture is still there: a group is drawn again into alpha alone.
+PictureLayers Renderer::layers(const StateView& state, const View& view) {
+    EXPECTS(options_.layers);
+    const Eye eye(view, width(), height());
+    const DrawInputs inputs{eye, lighting_, &sceneDepth_, samples_.samples() > 1};
+    const auto columns = size_t(width());
+    PictureLayers out{width(), height(), {}, {}, {}};
+    linearTarget_.bind();
+    drawPicture(linear_, eye, view.exposure);
+    out.color = turnedOver(readBack<float>(linearPicture_, 4), 4 * columns);
+    std::vector<float> depth;
+    for (const uint32_t stored : readBack<uint32_t>(sceneDepth_, 1)) {
+        const double share = 1 - double(stored) / 4294967295.0;
+        depth.push_back(share > 0 ? float(eye.nearest / share) : PictureLayers::nothingThere);
+    }
+    out.depth = turnedOver(depth, columns);
+    for (size_t i = 0; i < groups_.count(); ++i) {
+        samples_.bind();
+        glClearColor(0, 0, 0, 0);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glEnable(GL_DEPTH_TEST);
+        glDepthMask(GL_FALSE);
+        groups_.drawCover(i, state, inputs);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_DEPTH_TEST);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        samples_.blitTo(lightTarget_);
+        std::vector<float> mask;
+        const std::vector<uint64_t> texels = readBack<uint64_t>(light_, 1);
+        for (const uint64_t texel : texels)
+            mask.push_back(std::clamp(glm::unpackHalf1x16(uint16_t(texel >> 48)), 0.0f, 1.0f));
+        out.masks.emplace_back(groups_.nameOf(i), turnedOver(mask, columns));
+    }
+    return out;
 }
 
 Image Renderer::capture() const {

@@ -13,6 +13,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "compile/plan.h"
 #include "core/image.h"
@@ -36,6 +38,21 @@ struct RenderOptions {
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
     int slabs = 128;    // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
+    // No sky behind: the picture's alpha is what of a pixel is covered, and its colour is not multiplied by
+    // it (straight alpha).
+    bool clear = false;
+    bool layers = false;  // Renderer::layers() will be asked for
+};
+
+// What a compositor takes of a picture. Rows from the top, a value or four a pixel.
+struct PictureLayers {
+    int width = 0, height = 0;
+    std::vector<float> color;  // linear RGB times exposure and alpha, and alpha
+    std::vector<float> depth;  // m, along the view, of what is not blended; `nothingThere` behind all
+    // The share of a pixel in which a group is seen, in [0, 1], of each group by its name.
+    std::vector<std::pair<std::string, std::vector<float>>> masks;
+
+    static constexpr float nothingThere = 1e10f;
 };
 
 // Draws among the molecules to show how they work; part of the picture, with its depth.
@@ -65,6 +82,9 @@ class Renderer {
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
     Image capture() const;
 
+    // Of the last picture, drawn of these. Needs RenderOptions::layers.
+    PictureLayers layers(const StateView& state, const View& view);
+
     // Other looks for a group of particles of the plan, from the next picture on. False, and nothing changes:
     // they need another renderer.
     bool changeParticle(size_t group, const ParticleType& type) {
@@ -89,7 +109,8 @@ class Renderer {
     void drawClouds(const Scene& scene);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
-    void drawPicture(const Eye& eye, double exposure);
+    void clearGround();
+    void drawPicture(const gpu::Program& tone, const Eye& eye, double exposure);
 
     gpu::Context* context_;
     RenderOptions options_;
@@ -102,12 +123,15 @@ class Renderer {
     WaterBeams beams_;  // none without water
     AmbientOcclusion occlusion_;
     gpu::Program sky_, tone_;
-    gpu::Texture clouds_;  // none: a clear sky
+    gpu::Program covered_, linear_;  // none unless the ground is clear, and without layers
+    gpu::Texture clouds_;            // none: a clear sky
     gpu::PassTimers timers_;
     gpu::PrimitiveCounter primitives_;
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;
+    gpu::Texture linearPicture_;  // none without layers
+    gpu::Framebuffer linearTarget_;
     // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces,
     // no beams end there, no place is darker because of others, and nothing refracts.
     gpu::Texture sceneDepth_;

@@ -57,18 +57,28 @@ void closeFile(int& file) {
 
 }  // namespace
 
-VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate)
+// How a video is encoded, by the ending of its name.
+static std::vector<std::string> codecOf(const std::filesystem::path& file, bool alpha) {
+    const bool vp9 = lowerExtension(file) == ".webm";
+    if (alpha && vp9)
+        return {"-pix_fmt", "yuva420p", "-c:v", "libvpx-vp9", "-crf", "24", "-auto-alt-ref", "0"};
+    if (alpha) return {"-pix_fmt", "yuva444p10le", "-c:v", "prores_ks", "-profile:v", "4444"};
+    return {"-pix_fmt", "yuv420p", "-c:v", vp9 ? "libvpx-vp9" : "libx264", "-crf", vp9 ? "24" : "18"};
+}
+
+VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha)
     : file_(std::move(file)), part_(file_), width_(width), height_(height) {
     const std::string program = findProgram("ffmpeg");
     if (program.empty()) checkInstalled();
-    const bool vp9 = lowerExtension(file_) == ".webm";
     // ffmpeg chooses the container by the extension, which part_ has, too.
-    const std::vector<std::string> arguments = {
+    std::vector<std::string> arguments = {
         program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt", "rgba",
         "-video_size", concat(width_, "x", height_), "-framerate", concat(frameRate), "-i", "pipe:0",
         // Chroma at half size needs even sides; a side that is odd gains a row or column.
-        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-c:v", vp9 ? "libvpx-vp9" : "libx264",
-        "-crf", vp9 ? "24" : "18", std::filesystem::absolute(part_.path()).string()};
+        "-vf", concat("pad=ceil(iw/2)*2:ceil(ih/2)*2", alpha ? ":color=black@0" : "")};
+    for (std::string& word : codecOf(file_, alpha))
+        arguments.push_back(std::move(word));
+    arguments.push_back(std::filesystem::absolute(part_.path()).string());
     std::vector<char*> argv;
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));

@@ -538,8 +538,16 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     for (const char* medium : {"WATER", "WIDE_SHADOWS"})
         validator.addPicture("render/surface.frag", {"LINEAR_LIGHT", "SHADOWS", "REFRACTS", medium});
     validator.addPicture("render/picture.frag", {"LINEAR_LIGHT"});
+    validator.addPicture("render/picture.frag", {"CLEAR"});
+    validator.addPicture("render/picture.frag", {"CLEAR", "LINEAR", "OCCLUSION"});
+    validator.addPicture("render/covered.frag", {});
     validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
     validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});
+    for (const auto& more : {std::vector<std::string>{"BLENDED"}, {"IMAGES", "HOLES"}, {"BLENDED", "IMAGES", "HOLES"}}) {
+        std::vector<std::string> defines = {"DEPTH_ONLY"};
+        defines.insert(defines.end(), more.begin(), more.end());
+        validator.addPicture("render/surface_shadow.frag", defines);
+    }
     validator.check();
 }
 
