@@ -115,10 +115,14 @@ void checkEnds(const Spring& spring, const Molecule& molecule, const Where& wher
         throw Error(where.at("b"), "a spring needs two different vertices, found ", spring.a, " twice");
 }
 
-void checkLength(const Spring& spring, const Molecule& molecule, const Where& where) {
-    if (molecule.restLength(spring) < leastLength)
-        throw Error(where.here(), "this spring has no length: vertices ", spring.a, " and ", spring.b,
-                    " stand in the same place (move one, or give a restLength)");
+// A spring acts along the line between its ends: where that has no direction, in the floats of the state,
+// they would stay together for ever, whatever the rest length.
+void checkDirection(const Spring& spring, const Molecule& molecule, const Where& where) {
+    const glm::dvec3 &a = molecule.vertices[size_t(spring.a)].position,
+                     &b = molecule.vertices[size_t(spring.b)].position;
+    if (glm::distance(a, b) < leastLength || glm::vec3(a) == glm::vec3(b))
+        throw Error(where.here(), "this spring has no direction: vertices ", spring.a, " and ", spring.b,
+                    " stand in the same place, from which it could not part them (move one)");
 }
 
 // `seen`: the ends of the springs before.
@@ -138,7 +142,7 @@ void checkParts(const Molecule& molecule, const Where& where) {
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Where here = where.in("springs", i);
         checkEnds(molecule.springs[i], molecule, here);
-        checkLength(molecule.springs[i], molecule, here);
+        checkDirection(molecule.springs[i], molecule, here);
         checkNew(molecule.springs[i], seen, here);
     }
     for (size_t i = 0; i < molecule.triangles.size(); ++i) {

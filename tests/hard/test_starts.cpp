@@ -155,24 +155,26 @@ TEST_CASE("hard: angular momentum of a stretched molecule", "[hard][starts]") {
 }
 
 // Where ends coincide there is no direction, where a triangle has no area no normal: finite at every frame,
-// with unit normals (to float's rounding of a square root).
+// with unit normals (to float's rounding of a square root). A file that begins so is refused; a state may
+// come to it.
 TEST_CASE("hard: degenerate shapes", "[hard][starts]") {
     const char* const names[] = {"coincident vertices", "collinear molecule", "degenerate triangle"};
     for (int shape = 0; shape < 3; ++shape) {
         test::holds(names[shape], [shape](const Solver& solver, Judge& judge) {
-            Molecule molecule = test::leaf(1e3, 1);
-            for (Spring& spring : molecule.springs)
-                spring.restLength = molecule.restLength(spring);
-            for (int i = 0; i < 4; ++i) {
-                if (shape == 0) molecule.vertices[size_t(i)].position = {0, 0, 0};
-                if (shape == 1) molecule.vertices[size_t(i)].position = {0.3 * i, 0, 0};
-            }
-            if (shape == 2) molecule.vertices[2].position = molecule.vertices[1].position;
+            const Molecule molecule = test::leaf(1e3, 1);
             Scene scene = test::sceneOf(molecule, solver.kind, {at({1, 1, 1}, test::turned())});
             scene.gravity = {0, -9.81, 0};
             scene.groups[0].drag = {8, 1};
             setSteps(scene, 1 / 60.0, 16);
             Simulation simulation = test::hardSimulation(scene, true);
+            test::startFrom(simulation, [shape](GroupState& start) {
+                const glm::vec3 first = start.positions[0];
+                for (size_t i = 0; i < 4; ++i) {
+                    if (shape == 0) start.positions[i] = first;
+                    if (shape == 1) start.positions[i] = first + glm::vec3(0.3f * float(i), 0, 0);
+                }
+                if (shape == 2) start.positions[2] = start.positions[1];
+            });
             for (int i = 0; i < 60; ++i) {
                 test::runChecked(simulation, 1);
                 const Snapshot now = simulation.snapshot(0);
