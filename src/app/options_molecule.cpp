@@ -59,6 +59,9 @@ void addFromMesh(CLI::App& command, Options& options) {
             "lattice: tetrahedra that fill the volume; cage: about all parts",
             {"auto", "surface", "lattice", "cage"});
     addNumber(command, "--size", make.size, "m, of the longest side (default: as in the file)", "a number");
+    addRead(command, "--forward", "Turn it so that this axis of the mesh (+X, --forward=-X) becomes +Z",
+            [&make](const std::string& text) { make.forward = parseAxis(text); })
+        ->type_name("AXIS");
     command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
     command.add_option("--pin-name", make.pins.names,
                        "Pin an object, mesh, material or bone of the file by name");

@@ -71,6 +71,7 @@ Mesh withoutStrays(Mesh mesh) {
 // precision would not hold its shape there.
 Mesh placed(const Mesh& source, const FromMesh& options) {
     Mesh mesh = withoutStrays(source);
+    if (options.forward) turnForward(mesh, *options.forward);
     const glm::dvec3 extent = mesh.high - mesh.low;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0)) throw Error("all vertices of the mesh lie in one place");
@@ -231,6 +232,7 @@ class Maker {
         makeVertices();
         makeSprings();
         scaleStiffness();
+        if (options_.swims) made_.beat = addMuscles(molecule(), made_.lowestFrequency);
         if (options_.skin) addSkin();
         return std::move(made_);
     }

@@ -36,6 +36,14 @@ struct PinRule {
 PinRule parsePinRule(const std::string& text);
 // "0.5,1,0.5". Error: not three numbers.
 glm::dvec3 parsePinPoint(const std::string& text);
+// "+X": an axis with its sign, as a unit vector. Error: none.
+glm::dvec3 parseAxis(const std::string& text);
+// Turns a mesh so that an axis of it becomes +Z. +Y stays where it is, or becomes -Z where the axis is +Y, +Z
+// where it is -Y.
+void turnForward(Mesh& mesh, const glm::dvec3& axis);
+// Makes muscles of all springs that bending about +Y stretches, for the wave of a fish that swims along +Z.
+// `lowest`: the molecule's lowest frequency, Hz. Returns how fast they beat, Hz.
+double addMuscles(Molecule& molecule, double lowest);
 // Linear RGB: red, green, blue, yellow, cyan, magenta, white, black, or three numbers from 0 to 1
 // ("1,0.5,0"). Error: neither.
 glm::dvec3 parsePaint(const std::string& text);
@@ -58,13 +66,15 @@ struct FromMesh {
     std::optional<int> vertices;  // at most so many are simulated; nothing: 24, of a cage cageVertices
     std::optional<int> rings;     // instead: so many rings of four vertices along the longest axis
     Springs springs = Springs::automatic;
-    std::string material;             // of the material scale; empty: flesh for a body, leaf for a sheet
-    std::optional<double> size;       // m, of the longest side of its box; nothing: the file's
-    std::optional<double> mass;       // kg, in all; nothing: from the material's density
-    std::optional<double> density;    // kg/m^3, instead of the material's
-    std::optional<double> frequency;  // Hz, the lowest; nothing: from the material
-    std::optional<double> damping;    // ratio of the lowest mode; nothing: the material's
-    bool centre = false;              // the middle of its box to the origin, as of a mesh far away
+    std::string material;               // of the material scale; empty: flesh for a body, leaf for a sheet
+    std::optional<double> size;         // m, of the longest side of its box; nothing: the file's
+    std::optional<double> mass;         // kg, in all; nothing: from the material's density
+    std::optional<double> density;      // kg/m^3, instead of the material's
+    std::optional<double> frequency;    // Hz, the lowest; nothing: from the material
+    std::optional<double> damping;      // ratio of the lowest mode; nothing: the material's
+    bool centre = false;                // the middle of its box to the origin, as of a mesh far away
+    std::optional<glm::dvec3> forward;  // an axis of the file, which is turned to +Z; nothing: none is
+    bool swims = false;                 // its springs are muscles for a wave of bending along +Z
     bool skin = true;
     bool images = true;                // the skin is drawn with the colours of the mesh's materials
     std::optional<int> skinTriangles;  // the skin is simplified to about so many; nothing: all
@@ -85,6 +95,7 @@ struct MadeMolecule {
     double area = 0, volume = 0;     // m^2, m^3; the volume of a sheet is 0
     glm::dvec3 extent{0};            // m, of the mesh's box
     double lowestFrequency = 0;      // Hz, of the free molecule
+    double beat = 0;                 // Hz, of its muscles; 0: it has none
     double dampingRatio = 0;         // of that mode; at most the material's
     double skinError = 0;            // m, how far the skin lies off the mesh at rest, at most
     double skinReach = 0;            // m, from the skin to the nearest simulated vertex, at most

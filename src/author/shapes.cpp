@@ -87,7 +87,11 @@ Mesh rings(const std::vector<glm::dvec2>& halves) {
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < 4; ++k) {
             const int a = 4 * i + k, b = 4 * i + (k + 1) % 4;
-            addQuad(mesh, a, b, b + 4, a + 4);
+            // left and right, top and bottom alike: else what flows along would roll it
+            if (k % 2 == 0)
+                addQuad(mesh, a, b, b + 4, a + 4);
+            else
+                addQuad(mesh, b, b + 4, a + 4, a);
         }
     addQuad(mesh, 3, 2, 1, 0);
     addQuad(mesh, 4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3);
@@ -98,7 +102,8 @@ Mesh rod(int n) {
     return rings(std::vector<glm::dvec2>(size_t(n) + 1, glm::dvec2(0.06)));
 }
 
-// A body highest a third behind the head, a narrow stalk, and a fin that is high and thin.
+// A body highest a third behind the head, a narrow stalk, and a fin that is high and thin; along +Z, as what
+// swims does.
 Mesh fish(int n) {
     std::vector<glm::dvec2> halves;
     for (int i = 0; i <= n; ++i) {
@@ -107,7 +112,9 @@ Mesh fish(int n) {
         const double fin = s > 0.85 ? 0.14 * (s - 0.85) / 0.15 : 0;
         halves.emplace_back(std::max(body + fin, 0.02), std::max(0.55 * body, 0.01));
     }
-    return rings(halves);
+    Mesh mesh = rings(halves);
+    turnForward(mesh, {1, 0, 0});
+    return mesh;
 }
 
 // Two sheets through one another, along the x axis.
@@ -134,7 +141,7 @@ constexpr std::array<Make, 6> makers = {sheet, rod, box, cross, tetrahedron, fis
 const std::vector<Shape>& shapes() {
     static const std::vector<Shape> all = {
         {"sheet", "leaf", 2, 14},  {"rod", "flesh", 4, 55},        {"box", "flesh", 1, 6},
-        {"cross", "flesh", 2, 44}, {"tetrahedron", "flesh", 1, 1}, {"fish", "flesh", 5, 55},
+        {"cross", "flesh", 2, 44}, {"tetrahedron", "flesh", 1, 1}, {"fish", "flesh", 5, 55, true},
     };
     return all;
 }
@@ -173,6 +180,7 @@ FromMesh ofShape(const Shape& shape, const Mesh& mesh, FromMesh asked) {
     asked.size = asked.size.value_or(usualSize);
     asked.vertices = std::max(int(mesh.weldedPositions.size()), leastMadeVertices);
     asked.skin = false;
+    asked.swims = shape.swims;
     if (asked.material.empty()) asked.material = shape.material;
     return asked;
 }

@@ -15,6 +15,7 @@ struct Shape {
     const char* material;  // of the material scale, unless another is asked for
     int divisions;         // unless others are asked for
     int mostDivisions;
+    bool swims = false;  // along +Z, with muscles
 };
 
 const std::vector<Shape>& shapes();

@@ -5,6 +5,7 @@
 
 #include "compile/glsl_text.h"
 #include "compile/plan.h"
+#include "molecule/analysis.h"
 
 namespace shoal {
 
@@ -175,13 +176,7 @@ SchoolPlan planSchools(const Scene& scene, const std::vector<GroupPlan>& groups)
 }
 
 double bendOf(const Molecule& molecule, const Spring& spring) {
-    if (!spring.actuation) return 0;
-    const glm::dvec3 a = molecule.vertices[size_t(spring.a)].position,
-                     b = molecule.vertices[size_t(spring.b)].position;
-    const double squared = glm::dot(b - a, b - a);
-    if (squared == 0) return 0;
-    // a fibre at x of a body that bends about y gets shorter by x times the curvature, on the inner side
-    return -0.5 * (a.x + b.x) * (b.z - a.z) * (b.z - a.z) / squared;
+    return spring.actuation ? bendReach(molecule, spring) : 0;
 }
 
 }  // namespace shoal

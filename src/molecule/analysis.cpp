@@ -213,4 +213,13 @@ std::vector<Mode> modesOf(const Molecule& molecule, bool pinned, size_t most) {
     return out;
 }
 
+double bendReach(const Molecule& molecule, const Spring& spring) {
+    const glm::dvec3 a = molecule.vertices[size_t(spring.a)].position,
+                     b = molecule.vertices[size_t(spring.b)].position;
+    const double squared = glm::dot(b - a, b - a);
+    if (squared == 0) return 0;
+    // a fibre at x of a body that bends about y gets shorter by x times the curvature, on the inner side
+    return -0.5 * (a.x + b.x) * (b.z - a.z) * (b.z - a.z) / squared;
+}
+
 }  // namespace shoal

@@ -48,4 +48,8 @@ struct Mode {
 // Empty above 300 vertices. `pinned`: pins hold. The molecule must be valid (see molecule_file.h).
 std::vector<Mode> modesOf(const Molecule& molecule, bool pinned, size_t most);
 
+// Returns the reach of a spring of a body along z that bends about +Y, m: its length at rest changes by the
+// share of this times the curvature (1/m, to the left where positive).
+double bendReach(const Molecule& molecule, const Spring& spring);
+
 }  // namespace shoal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "author/shapes.h"
 #include "compile/plan.h"
 #include "gl/births.h"
 #include "gl/feature_scenes.h"
@@ -249,6 +250,33 @@ TEST_CASE("A hunter scatters those that it finds", "[school]") {
     const double fled = distance(true), stayed = distance(false);
     INFO("mean distance " << fled << " m, where none flees " << stayed << " m");
     CHECK(fled > stayed + 0.15);
+}
+
+// rad, between where they swim and where they look, on average.
+static double offCourse(const Molecule& molecule) {
+    Scene scene = water();
+    scene.groups = {fish("fish", 100, {1.5, 0.5, 1.5})};
+    scene.groups[0].molecule = molecule;
+    setStableSubsteps(scene);
+    Run run(scene);
+    run.frames(120);
+    const SchoolReference reference(scene, run.simulation.plan());
+    const SavedState state = run.simulation.save();
+    double sum = 0;
+    for (const SchoolBody& body : reference.bodies(0, state.groups[0]))
+        sum += std::acos(glm::dot(glm::normalize(body.velocity), body.forward)) / 100;
+    return sum;
+}
+
+TEST_CASE("Fish of a shape swim ahead, as those that ship do", "[school]") {
+    if (!canRun()) return;
+    const Shape& shape = shapeNamed("fish");
+    const Mesh mesh = shapeMesh(shape, shape.divisions);
+    const double made = offCourse(makeMolecule(mesh, ofShape(shape, mesh, {})).molecule),
+                 fry = offCourse(shippedMolecule("fry"));
+    INFO("off course by " << made << " rad, fry by " << fry);
+    CHECK(fry < 0.15);
+    CHECK(made < 0.2);
 }
 
 TEST_CASE("One fish swims at its cruise, and turns by bending alone", "[school]") {

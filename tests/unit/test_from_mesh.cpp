@@ -4,9 +4,11 @@
 #include <map>
 
 #include "author/from_mesh.h"
+#include "author/shapes.h"
 #include "geometry/close_holes.h"
 #include "geometry/doubled_walls.h"
 #include "geometry/mesh.h"
+#include "molecule/analysis.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "molecule/skin.h"
@@ -151,6 +153,60 @@ TEST_CASE("mass, size and frequencies are as asked", "[from-mesh]") {
         const double frequency = made(mesh, options).lowestFrequency;
         CHECK(frequency > last);
         last = frequency;
+    }
+}
+
+// An arrow along an axis of the file, its fin up.
+TEST_CASE("an axis of the mesh becomes the way ahead", "[from-mesh]") {
+    for (const char* text : {"+X", "-x", "Y", "-Y", "z", "-Z"}) {
+        const glm::dvec3 axis = parseAxis(text),
+                         up = axis.y == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -axis.y);
+        Mesh mesh;
+        mesh.positions = {axis, -0.1 * glm::cross(up, axis), 0.2 * up, 0.1 * glm::cross(up, axis),
+                          -2.0 * axis};
+        mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 1, 2}, {4, 2, 3}, {0, 1, 3}, {4, 3, 1}};
+        completeMesh(mesh);
+        const glm::dvec3 normal = mesh.normals[2];
+        turnForward(mesh, axis);
+        INFO(text);
+        const glm::dvec3 expected[] = {{0, 0, 1}, {-0.1, 0, 0}, {0, 0.2, 0}, {0.1, 0, 0}, {0, 0, -2}};
+        for (size_t i = 0; i < 5; ++i)
+            CHECK(glm::distance(mesh.positions[i], expected[i]) < 1e-12);
+        CHECK(glm::distance(mesh.low, glm::dvec3(-0.1, 0, -2)) < 1e-12);
+        CHECK(glm::distance(mesh.high, glm::dvec3(0.1, 0.2, 1)) < 1e-12);
+        CHECK(mesh.normals[2].y == Approx(glm::dot(normal, up)));
+    }
+    for (const char* wrong : {"", "+", "W", "+XY", "*X", "1,0,0"})
+        CHECK_THROWS_AS(parseAxis(wrong), Error);
+}
+
+// The muscles bend it as the wave says: with all of them at a phase, no fibre of its middle changes its
+// length, and left and right pull in turn.
+TEST_CASE("the shape of a fish lies along +Z and has the muscles of a wave", "[from-mesh]") {
+    const Shape& shape = shapeNamed("fish");
+    const Mesh mesh = shapeMesh(shape, shape.divisions);
+    const glm::dvec3 extent = mesh.high - mesh.low;
+    CHECK(extent.z == Approx(1));
+    CHECK(std::max(extent.x, extent.y) < 0.5);
+    const MadeMolecule made = makeMolecule(mesh, ofShape(shape, mesh, {}));
+    CHECK(made.beat > 0.5);
+    CHECK(made.beat < made.lowestFrequency);
+    int left = 0, right = 0;
+    for (const Spring& spring : made.molecule.springs) {
+        const double reach = bendReach(made.molecule, spring);
+        CHECK(spring.actuation.has_value() == (std::abs(reach) > 1e-6 * 0.2));
+        if (!spring.actuation) continue;
+        CHECK(spring.actuation->frequency == made.beat);
+        CHECK(spring.actuation->amplitude < 0.5);
+        (reach < 0 ? left : right) += 1;
+    }
+    CHECK(left > 20);
+    CHECK(left == right);
+    for (const Shape& other : shapes()) {
+        if (other.swims) continue;
+        const Mesh plain = shapeMesh(other, 1);
+        for (const Spring& spring : makeMolecule(plain, ofShape(other, plain, {})).molecule.springs)
+            CHECK_FALSE(spring.actuation);
     }
 }
 
