@@ -55,6 +55,9 @@ StateSphere sphereOfState(int molecule, int k)
     own.radius = givenRadius * scale;
 #ifdef LIFE
     vec2 life = packedLife(oldState, first);
+#ifdef CONTACT_GROWTH
+    own.radius *= mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min(life.x / max(life.y, 1e-9), 1.0));
+#endif
     own.there = life.y > 0.0;
     own.fresh = life.x <= contactStep * 1.0001;
     if (!own.there) own.radius = 0.0;
@@ -119,6 +122,7 @@ float gapTo(float distance)
 // The colliders that the sphere may press on within the step, the nearest first.
 Wall[MOST_WALLS] nearWalls(StateSphere own)
 {
+    contactRadius = own.radius;
     Wall near[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k) near[k] = Wall(vec3(0.0), 1e30, vec3(0.0), 0.0);
     float reach = 0.25 * own.radius + length(own.velocity) * contactStep;

@@ -91,6 +91,13 @@ void main()
 #ifdef RECORDS
     moved = followAnchor();
 #endif
+#ifdef CONTACT_RADIUS
+#ifdef CONTACT_GROWTH
+    takeRadius(scale * mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min((age + frameDuration) / max(span, 1e-9), 1.0)));
+#else
+    takeRadius(scale);
+#endif
+#endif
     beginSolver();
     sampleFrame();
     run();

@@ -47,6 +47,9 @@ void main()
 #ifdef COLLIDE
     // what begins the substep at rest on a collider is held by it, as in solver/rk4.glsl
     if (startVelocity == vec3(0.0)) {
+#ifdef CONTACT_RADIUS
+        takeRadius(texelFetch(constants, recordTexel(own.y), 0).y);
+#endif
         vec4 standsOn = footing(anchor, start, time);
         a = heldBy(standsOn.xyz, standsOn.w, a);
     }

@@ -3,6 +3,19 @@
 #include "physics/collide.glsl"
 #include "physics/solid.glsl"
 
+#ifdef CONTACT_RADIUS
+// The radius of the sphere around the place that is asked for, m, which rests on surfaces where a collider's thickness is
+// less. CONTACT_RADIUS: that of the group's vertices, of a molecule of scale 1.
+float contactRadius = 0.0;
+
+void takeRadius(float scale)
+{
+    contactRadius = CONTACT_RADIUS * scale;
+}
+#else
+const float contactRadius = 0.0;
+#endif
+
 #ifdef RIGID_IMPACT
 // The surface that a vertex has struck last in this substep: its normal and friction, and its velocity; w
 // negative: none.

@@ -287,6 +287,10 @@ std::vector<Warning> warningsOfStart(const Scene& scene, const Plan& plan) {
 
 namespace {
 
+std::string asText(const glm::dvec3& place) {
+    return concat("(", place.x, ", ", place.y, ", ", place.z, ")");
+}
+
 Verdict checkScene(const std::string& file, bool lenient) {
     FieldWatch watch;
     const Scene scene = readScene(file, watch.baking(), lenient);
@@ -308,7 +312,7 @@ Verdict checkScene(const std::string& file, bool lenient) {
     for (const ContactGroup& contact : plan.contact.groups) {
         const GroupPlan& group = plan.groups[contact.group];
         const Group& source = scene.groups[group.index];
-        const ContactGap gap = largestGap(source.molecule, *source.contact);
+        const Gap gap = largestGap(source.molecule, *source.contact);
         gaps.add(group.name, toJson(gap.radius));
         gapText +=
             concat("\n  contact of \"", printable(group.name), "\": spheres of ", contact.radius, " m, ");
@@ -316,10 +320,18 @@ Verdict checkScene(const std::string& file, bool lenient) {
             gap.triangle < 0 ? "no gap" : concat("largest gap ", gap.radius, " m in triangle ", gap.triangle);
     }
     if (plan.contact.any()) append(out.facts, key("contactGaps", gaps));
+    JsonValue boxes = object();
+    std::string boxText;
+    for (const Model& model : scene.models) {
+        boxes.add(model.name, object(key("low", model.mesh.low), key("high", model.mesh.high)));
+        boxText += concat("\n  model \"", printable(model.name), "\": from ", asText(model.mesh.low), " to ",
+                          asText(model.mesh.high), " m");
+    }
+    if (!scene.models.empty()) append(out.facts, key("modelBoxes", boxes));
     out.summary = concat(
         "scene \"", printable(scene.name), "\": ", many(int64_t(plan.groups.size()), "group", "groups"), ", ",
         many(molecules, "molecule", "molecules"), ", ", many(int64_t(scene.fields.size()), "field", "fields"),
-        ", ", many(int64_t(scene.colliders.size()), "collider", "colliders"), gapText);
+        ", ", many(int64_t(scene.colliders.size()), "collider", "colliders"), boxText, gapText);
     return out;
 }
 

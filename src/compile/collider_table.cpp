@@ -94,7 +94,7 @@ std::string ColliderTable::loopOver(const Kind& kind, size_t base, size_t read, 
     const size_t count = kind.members.size();
     return concat("    for (int m = 0; m < ", clusters(count), "; ++m) {\n        vec4 around = sampleAt(",
                   base, " + m);\n        if (length(", isFar() ? "(anchor - middle)" : "anchor",
-                  " + position - around.xyz) * 0.999999 - around.w < ", limit,
+                  " + position - around.xyz) * 0.999999 - around.w - contactRadius < ", limit,
                   ")\n        for (int n = ", clusterSize, " * m; n < min(", clusterSize, " * m + ",
                   clusterSize, ", ", count, "); ++n) ", memberText(kind, base + clusters(count), read, use),
                   "    }\n");
@@ -121,7 +121,8 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
                 c * clusterSize, std::min(clusterSize, members.size() - c * clusterSize))));
         for (const Member& member : members)
             samples.insert(samples.end(), member.texels.begin(), member.texels.end());
-        const std::string distance = concat("surface.w - ", kind.thickness), last = concat("t", all - 1),
+        const std::string distance = concat("surface.w - max(", kind.thickness, ", contactRadius)"),
+                          last = concat("t", all - 1),
                           touch = concat("Touch(surface.xyz, ", distance, ", vec2(-1.0 - ", last,
                                          ".w, 0.0), vec3(0.0), int(", last, ".z))"),
                           meet = concat("meetSwept(s, ", touch, ", skip);");

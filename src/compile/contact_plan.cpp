@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/glsl_text.h"
 #include "compile/plan.h"
 #include "compile/surface_pair.h"
+#include "molecule/gap.h"
 
 namespace shoal {
 
@@ -19,16 +21,6 @@ double roundedUp(double length) {
     int exponent = 0;
     const double mantissa = std::frexp(length, &exponent);  // in [1/2, 1)
     return std::ldexp(std::ceil(mantissa * 32), exponent - 5);
-}
-
-// Rest positions of a molecule's spheres.
-std::vector<glm::dvec3> restSpheres(const Molecule& molecule, bool triangles) {
-    std::vector<glm::dvec3> out;
-    for (const Vertex& vertex : molecule.vertices)
-        out.push_back(vertex.position);
-    for (const Triangle& t : molecule.triangles)
-        if (triangles) out.push_back((out[size_t(t.a)] + out[size_t(t.b)] + out[size_t(t.c)]) / 3.0);
-    return out;
 }
 
 void markClose(const Molecule& molecule, ContactGroup& group) {
@@ -68,6 +60,7 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     out.radius = source.contact->radius;
     out.triangles = source.contact->triangles;
     out.self = source.contact->self;
+    if (source.particle && source.life) out.growth = source.particle->growth;
     out.spheresOf = plan.vertexCount;
     if (out.triangles) {
         for (const Triangle& t : source.molecule.triangles)
@@ -113,6 +106,14 @@ void checkRest(const Scene& scene, int steps) {
 
 }  // namespace
 
+std::vector<std::string> ContactGroup::defines() const {
+    std::vector<std::string> out{concat("CONTACT_RADIUS ", glslLiteral(radius))};
+    if (growth != glm::dvec2(1))
+        out.push_back(
+            concat("CONTACT_GROWTH vec2(", glslLiteral(growth.x), ", ", glslLiteral(growth.y), ")"));
+    return out;
+}
+
 bool ContactPlan::mayRest(const GroupPlan& group) const {
     return settings.rest && !group.needs.actuation && !group.needs.steers;
 }
@@ -153,8 +154,10 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
         if (spheres > mostSpheres)
             throw Error(source.contact->location, concat(spheres, " spheres of contact are more than the ",
                                                          mostSpheres, " that a scene may have"));
-        out.largestRadius = std::max(out.largestRadius, group.radius * double(largestScale(groups[g])));
-        smallest = std::min(smallest, group.radius * double(smallestScale(groups[g])));
+        const auto [slight, full] = std::minmax({group.growth.x, group.growth.y});
+        out.largestRadius =
+            std::max(out.largestRadius, group.radius * full * double(largestScale(groups[g])));
+        smallest = std::min(smallest, group.radius * slight * double(smallestScale(groups[g])));
         out.groups.push_back(std::move(group));
         if (out.groups.size() > mostGroups)
             throw Error(source.contact->location, concat("more than ", mostGroups, " groups with contact"));
@@ -188,28 +191,8 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     return out;
 }
 
-// On a lattice over each triangle: a hole's middle is a Voronoi vertex of the spheres, and a step of 1/64 of
-// an edge is within what a radius is known to.
-ContactGap largestGap(const Molecule& molecule, const GroupContact& contact) {
-    const std::vector<glm::dvec3> spheres = restSpheres(molecule, contact.triangles);
-    ContactGap out;
-    // a shape with many spheres has small triangles
-    const int cuts = spheres.size() > 200 ? 8 : 32;
-    for (size_t t = 0; t < molecule.triangles.size(); ++t) {
-        const Triangle& triangle = molecule.triangles[t];
-        const glm::dvec3 &a = spheres[size_t(triangle.a)], &b = spheres[size_t(triangle.b)],
-                         &c = spheres[size_t(triangle.c)];
-        for (int i = 0; i <= cuts; ++i) {
-            for (int k = 0; k + i <= cuts; ++k) {
-                const glm::dvec3 p = a + (b - a) * (double(i) / cuts) + (c - a) * (double(k) / cuts);
-                double nearest = 1e300;
-                for (const glm::dvec3& sphere : spheres)
-                    nearest = std::min(nearest, glm::distance(p, sphere));
-                if (nearest - contact.radius > out.radius) out = {nearest - contact.radius, int(t)};
-            }
-        }
-    }
-    return out;
+Gap largestGap(const Molecule& molecule, const GroupContact& contact) {
+    return largestGap(molecule, restSpheres(molecule, contact.triangles), contact.radius);
 }
 
 }  // namespace shoal

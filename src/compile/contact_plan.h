@@ -15,6 +15,7 @@
 
 #include <glm/glm.hpp>
 
+#include "molecule/gap.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -26,6 +27,8 @@ struct ContactGroup {
     int firstSphere = 0;  // of all
     int spheresOf = 0;    // of a molecule
     double radius = 0;    // m, at scale 1
+    // Factors on it at birth and at the end of life: as a particle is drawn.
+    glm::dvec2 growth{1};
     bool triangles = false, self = false;
     std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
     std::vector<glm::vec4> shapes;    // shaders/contact/shape.glsl
@@ -33,6 +36,9 @@ struct ContactGroup {
     // itself, and what is closer than two radii in the rest shape. `wordsOf` words a sphere.
     std::vector<uint32_t> apart;
     int wordsOf = 0;
+
+    // CONTACT_RADIUS and, of what grows, CONTACT_GROWTH, for shaders/step/surfaces.glsl.
+    std::vector<std::string> defines() const;
 };
 
 struct ContactPlan {
@@ -92,12 +98,8 @@ struct ContactPlan {
     double safeSpeed(double frameTime) const;
 };
 
-// Describes the largest gap that the spheres of contact leave open in a molecule's triangles.
-struct ContactGap {
-    double radius = 0;  // m, of the largest sphere that passes through a triangle between the spheres
-    int triangle = -1;  // in which; -1: none is open
-};
-ContactGap largestGap(const Molecule& molecule, const GroupContact& contact);
+// The largest gap that the spheres of contact leave open.
+Gap largestGap(const Molecule& molecule, const GroupContact& contact);
 
 // Error (located at the group's contact): more spheres than 2^27, or than a label names; a radius that the
 // cell given does not hold.

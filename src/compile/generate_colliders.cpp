@@ -101,8 +101,10 @@ std::string sourceOfOne(const Text& text) {
     return concat(
         "// xyz unit normal, w m from the surface, less its thickness; negative inside.\n",
         "vec4 surfaceAt(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, vec3(0.0));\n",
-        "    vec4 surface = ", text.surface, ";\n    return vec4(surface.xyz, surface.w - ", text.material,
-        ".z);\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 position, vec3 ",
+        "    vec4 surface = ", text.surface, ";\n    return vec4(surface.xyz, surface.w - max(",
+        text.material,
+        ".z, contactRadius));\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 "
+        "position, vec3 ",
         "velocity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
         "surface.w < 0.0 ? ", text.material,
         ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return ",
@@ -172,11 +174,11 @@ class Joint {
     void write(const Text& t, size_t number) {
         const std::string head = concat(t.before, "    surface = ", t.surface, ";\n");
         const char *part = t.swept ? "least.y" : "least.x", *slower = t.cell.empty() ? "" : "slower";
-        clearances_ +=
-            concat(head, "    ", part, " = min(", part, ", ", slower, "(surface.w - ", t.material, ".z));\n");
+        clearances_ += concat(head, "    ", part, " = min(", part, ", ", slower, "(surface.w - max(",
+                              t.material, ".z, contactRadius)));\n");
         const auto touch = [&](const char* distance) {
-            return concat("(s, Touch(surface.xyz, ", distance, "(surface.w - ", t.material, ".z), ",
-                          t.material, ".xy, ", t.velocity, ", ", number, "), ");
+            return concat("(s, Touch(surface.xyz, ", distance, "(surface.w - max(", t.material,
+                          ".z, contactRadius)), ", t.material, ".xy, ", t.velocity, ", ", number, "), ");
         };
         nearest_ += concat(head, nearest_.empty() ? "    firstNearest" : "    meetNearest", touch(slower),
                            !t.cell.empty() ? concat("isShort(", t.cell, "), false")

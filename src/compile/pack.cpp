@@ -118,7 +118,8 @@ void packStart(const Scene& scene, GroupPlan& group) {
     };
     const bool newbornsScaled = source.life && source.life->scale != glm::dvec2(1);
     const bool newbornsPhased = source.life && source.phaseSpread != 0;
-    group.needs.scale = group.needs.springs && (newbornsScaled || differs(group.constants.scales, 1));
+    group.needs.scale =
+        (group.needs.springs || source.contact) && (newbornsScaled || differs(group.constants.scales, 1));
     group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 

@@ -10,6 +10,7 @@
 #include "compile/lanes.h"
 #include "compile/muscle_limits.h"
 #include "compile/pack.h"
+#include "compile/scene_warnings.h"
 #include "compile/surface_pair.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -204,91 +205,6 @@ void checkTurn(const Scene& scene, const Collider& collider) {
                        std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
 }
 
-// Warns of contact that no group takes part in, and of more steps of it than substeps.
-void warnOfUnused(const Scene& scene, Plan& plan) {
-    const ContactSettings& asked = scene.contact;
-    if (asked.location.empty()) return;
-    if (!plan.contact.any())
-        plan.warnings.push_back(
-            {asked.location,
-             "no group has \"contact\", so that molecules pass through one another: "
-             "\"contact\": {\"radius\": 0.01} in a group gives its vertices spheres of 1 cm"});
-    else if (asked.steps > plan.contact.steps)
-        plan.warnings.push_back(
-            {asked.location, concat("contact of ", asked.steps, " steps runs ", plan.contact.steps,
-                                    " times a frame, once a substep")});
-}
-
-// Warns of spheres that are larger than their molecule, and where they leave a gap in its surface through
-// which a like sphere passes.
-void warnOfSpheres(const Scene& scene, Plan& plan) {
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        const GroupContact& asked = *scene.groups[group.index].contact;
-        const double size = scene.groups[group.index].molecule.size();
-        if (group.vertexCount > 1 && asked.radius > size)
-            plan.warnings.push_back(
-                {asked.location,
-                 concat("the spheres of \"", group.name, "\", with a radius of ", asked.radius,
-                        " m, are larger than the molecule, which is ", size, " m long")});
-        const ContactGap gap = largestGap(scene.groups[group.index].molecule, asked);
-        if (gap.radius <= asked.radius) continue;
-        plan.warnings.push_back(
-            {asked.location,
-             concat("the spheres of \"", group.name, "\" leave a gap in triangle ", gap.triangle,
-                    " through which a sphere of radius ", gap.radius, " m passes, larger than their own: ",
-                    asked.triangles ? "a larger radius closes it"
-                                    : "\"triangles\": true or a larger radius closes it")});
-    }
-}
-
-// Fields and winds move what has drag, and nothing else. What has a velocity of its own may drift without.
-void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& plan,
-                    std::vector<Warning>& warnings) {
-    const bool wind = std::any_of(scene.forces.begin(), scene.forces.end(), [&](const Force& force) {
-        return std::holds_alternative<WindForce>(*force.shape) && actsOn(force, group.name);
-    });
-    if (plan.needs.drag || group.velocity != glm::dvec3(0) || (scene.fields.empty() && !wind)) return;
-    warnings.push_back({group.location, concat("\"", plan.name, "\" has no \"drag\", through which ",
-                                               wind ? "wind" : "fields", " would move it: it feels none")});
-}
-
-// Warns of crowds: each sphere is compared with all that share its cells, so many in one place cost the
-// square of their number.
-void warnOfCrowds(const Scene& scene, Plan& plan) {
-    constexpr double many = 64;
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        const double reach = 2 * plan.contact.largestRadius;
-        std::vector<size_t> cells;
-        const size_t there = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
-        for (size_t m = 0; m < there; ++m) {
-            const glm::dvec3 place =
-                glm::floor((glm::dvec3(group.start.anchors[m]) +
-                            glm::dvec3(group.start.positions[m * size_t(group.vertexCount)])) /
-                           reach);
-            cells.push_back(std::hash<double>()(place.x) ^ (std::hash<double>()(place.y) * 31) ^
-                            (std::hash<double>()(place.z) * 1009));
-        }
-        std::sort(cells.begin(), cells.end());
-        double others = 0;
-        for (size_t first = 0, i = 0; i <= cells.size(); ++i) {
-            if (i < cells.size() && cells[i] == cells[first]) continue;
-            others += double(i - first) * double(i - first);
-            first = i;
-        }
-        if (there == 0 || others / double(there) <= many) continue;
-        plan.warnings.push_back(
-            {scene.groups[group.index].contact->location,
-             concat(
-                 "the molecules of \"", group.name, "\" start crowded: one has about ",
-                 std::round(others / double(there)), " others within ", reach,
-                 " m, where their spheres may touch. Each pair is looked at, which takes long, and a sphere "
-                 "keeps at most ",
-                 plan.contact.listLength, " of them: a larger place or a smaller radius helps")});
-    }
-}
-
 // Computed noise, grids and many waves are long texts.
 bool isLong(const Field& field) {
     const WavesField* waves = std::get_if<WavesField>(&*field.shape);
@@ -381,7 +297,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
         chooseSolver(scene, scene.groups[i], plan, group);
-        warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
         group.needs.acceleration =
             group.needs.springs && (group.solver == SolverKind::leapfrog ||
                                     (group.solver == SolverKind::euler && group.needs.collide));
@@ -401,9 +316,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
     plan.school = planSchools(scene, plan.groups);
-    warnOfUnused(scene, plan);
-    warnOfSpheres(scene, plan);
-    warnOfCrowds(scene, plan);
+    warnOf(scene, plan);
 
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),

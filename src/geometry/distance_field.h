@@ -18,7 +18,7 @@ struct FieldRequest {
     std::optional<int> resolution;  // cells along the model's longest side
     std::optional<double> error;    // m: refined until no probe near the surface is off by more
     std::optional<double> shell;    // m: thickness of a model that is not closed; nothing: two cells
-    double thickness = 0;           // m: the collider's, so that the grid reaches as far
+    double thickness = 0;           // m: how far off it vertices rest, so that the grid reaches as far
 };
 
 constexpr int defaultResolution = 96, leastResolution = 4, mostResolution = 2048;
@@ -76,8 +76,8 @@ int finestResolution(const Mesh& mesh, const FieldRequest& request, bool closed)
 // Warns of a model that is not closed, and why; of a shell too thin or needless; of thickened parts.
 std::vector<std::string> fieldWarnings(const DistanceField& field, const FieldRequest& request);
 
-// Baked fields are kept on disk, so that a model is baked once. They go by the content of the mesh, the
-// request and the version of the baking, so that nothing is ever out of date.
+// Baked fields are kept on disk, so that a model is baked once. They go by the content of the mesh, wherever
+// it stands, the request and the version of the baking, so that nothing is ever out of date.
 //
 // One file a field, <folder>/<key>.shoal-field; numbers as this machine has them in memory: a head (see the
 // source), then the distances as floats.

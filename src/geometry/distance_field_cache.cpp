@@ -1,5 +1,7 @@
 #include "geometry/distance_field.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -13,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Any change of what is baked, or of this head, is another version.
-constexpr uint32_t bakingVersion = 1;
+constexpr uint32_t bakingVersion = 2;
 constexpr char magic[8] = {'s', 'h', 'o', 'a', 'l', 'f', 'l', 'd'};
 constexpr const char* extension = ".shoal-field";
 
@@ -43,10 +45,34 @@ std::string_view bytesOf(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-std::string keyOf(const Mesh& mesh, const FieldRequest& request) {
-    std::string all = concat("field ", bakingVersion, " ", mesh.positions.size(), " ");
-    all += bytesOf(mesh.positions);
-    all += bytesOf(mesh.triangles);
+glm::dvec3 middleOf(const Mesh& mesh) {
+    return 0.5 * (mesh.low + mesh.high);
+}
+
+// The shape about the origin, to a step far below a float's: the same to the bit wherever the mesh stands.
+// The step is a power of 2, so that what is a short binary fraction stays exact; no decimal lies half way
+// between two steps, where a rounding would take it to either.
+Mesh shapeOf(const Mesh& mesh) {
+    Mesh out = mesh;
+    const glm::dvec3 middle = middleOf(mesh), extent = mesh.high - mesh.low;
+    const double size = std::max({extent.x, extent.y, extent.z});
+    if (!(size > 0)) return out;
+    constexpr int digits = 26;  // binary, of the size
+    const double step = std::ldexp(1.0, std::ilogb(size * (1 - 1e-9)) - digits);
+    const auto snapped = [&](const glm::dvec3& place) {
+        return step * glm::round((place - middle) / step) + 0.0;  // never -0
+    };
+    for (auto* places : {&out.positions, &out.weldedPositions})
+        std::transform(places->begin(), places->end(), places->begin(), snapped);
+    out.low = snapped(mesh.low);
+    out.high = snapped(mesh.high);
+    return out;
+}
+
+std::string keyOf(const Mesh& shape, const FieldRequest& request) {
+    std::string all = concat("field ", bakingVersion, " ", shape.positions.size(), " ");
+    all += bytesOf(shape.positions);
+    all += bytesOf(shape.triangles);
     const double asked[] = {double(request.resolution.value_or(0)), request.error.value_or(0),
                             request.shell.value_or(0), request.thickness};
     all.append(reinterpret_cast<const char*>(asked), sizeof asked);
@@ -140,19 +166,24 @@ void keep(const fs::path& path, const std::string& key, const DistanceField& fie
 
 }  // namespace
 
-DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
-                              std::vector<Warning>& warnings) {
-    if (mesh.triangles.empty()) throw Error(noTriangles);
-    if (baking.cache.empty()) return bakeDistanceField(mesh, request, baking.progress);
-    const std::string key = keyOf(mesh, request);
+static DistanceField ofShape(const Mesh& shape, const FieldRequest& request, const FieldBaking& baking,
+                             std::vector<Warning>& warnings) {
+    if (baking.cache.empty()) return bakeDistanceField(shape, request, baking.progress);
+    const std::string key = keyOf(shape, request);
     const fs::path path = fs::path(baking.cache) / (key + extension);
     DistanceField field;
-    if (readCached(path, key, field, warnings)) {
-        field.surface = examineSurface(mesh);
-        return field;
-    }
-    field = bakeDistanceField(mesh, request, baking.progress);
+    if (readCached(path, key, field, warnings)) return field;
+    field = bakeDistanceField(shape, request, baking.progress);
     keep(path, key, field, warnings);
+    return field;
+}
+
+DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
+                              std::vector<Warning>& warnings) {
+    DistanceField field = ofShape(shapeOf(mesh), request, baking, warnings);
+    for (glm::dvec3* place : {&field.grid.low, &field.thinWhere, &field.error.where})
+        *place += middleOf(mesh);
+    field.surface = examineSurface(mesh);
     return field;
 }
 

@@ -27,6 +27,9 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.fields = scene.fields;
     out.forces = reference::forcesOn(scene, group);
     out.colliders = collidersOf(scene, group);
+    for (Collider& collider : out.colliders)
+        if (group.contact)
+            collider.thickness = std::max(collider.thickness, group.contact->radius * out.scale);
     if (group.school)
         throw Error(
             group.school->location,

@@ -161,7 +161,10 @@ const Description& describe(const Collider*) {
         Describe<C>("collider", "What molecules collide with.")
             .key("name", &C::name, {"", "Its name in messages and in the panel; no two have the same."})
             .key("thickness", &C::thickness,
-                 {"m", "The distance at which vertices rest from the surface.", Range::atLeast(0)})
+                 {"m",
+                  "The distance at which vertices rest from the surface, unless the radius of their contact "
+                  "is larger.",
+                  Range::atLeast(0)})
             .alternatives("type", &C::shape, {"", "Which solid it is."})
             .key("surface", &C::surface, {"", "What it is made of, for `surfacePairs`."})
             .key("restitution", &C::restitution,

@@ -21,9 +21,9 @@ struct Collider {
     std::string name;
     std::string surface = {};  // what it is made of, for surfacePairs; empty: nothing in particular
     Boxed<ColliderShape> shape;
-    double restitution = 0.2;               // in [0, 1]
-    double friction = 0.5;                  // Coulomb's mu, at least 0
-    double thickness = 0.002;               // m: vertices rest this far from the surface
+    double restitution = 0.2;  // in [0, 1]
+    double friction = 0.5;     // Coulomb's mu, at least 0
+    double thickness = 0.002;  // m: vertices rest this far from the surface, or the radius of contact
     std::optional<ColliderPath> path = {};  // nothing: it stands still
     bool draw = true;                       // all but height and distance fields, which show as their model
     glm::dvec3 color{0.2, 0.21, 0.19};

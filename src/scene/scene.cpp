@@ -170,7 +170,7 @@ const Description& describe(const GroupContact*) {
             .location(&C::location)
             .key("radius", &C::radius,
                  {"m", "The radius of the sphere at each vertex, times the instance's scale.", aboveZero()})
-            .needed()
+            .usually("what closes the gaps: half of the largest; of a point half of its drawn size")
             .key("triangles", &C::triangles,
                  {"", "Whether there is a sphere at the middle of each triangle, too."})
             .key("self", &C::self,

@@ -42,6 +42,7 @@ struct Model {
     glm::dvec3 position{0};
     glm::dquat rotation{1, 0, 0, 0};
     double scale = 1;
+    bool stand = false;  // its lowest point is at `position`'s height, instead of its origin
     bool draw = true;
     glm::dvec3 color{1};              // multiplies its own
     std::optional<double> roughness;  // in [0, 1]; nothing: as its materials say
@@ -70,7 +71,7 @@ struct Release {
 // Contact with other molecules: spheres of one radius at the vertices, and where asked at the triangles'
 // middles, which the vertices' leave uncovered.
 struct GroupContact {
-    double radius = 0;       // m, times the instance's scale
+    double radius = 0;       // m, times the instance's scale; in a file: what closes the gaps, unless given
     bool triangles = false;  // a sphere at the middle of each triangle, too
     bool self = false;       // also between spheres of one molecule that are apart in its rest shape
     Location location;

@@ -95,6 +95,9 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
+    if (needs.collide && contact && !births)
+        for (const std::string& one : contact->defines())
+            out.push_back(one);
     constexpr int few = 16;  // vertices, which are chosen from registers (fused/contact.glsl)
     define(needs.collide && perLane && group.vertexCount <= few, "FEW_VERTICES");
     define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");

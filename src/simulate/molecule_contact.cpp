@@ -208,6 +208,8 @@ void MoleculeContact::makeGroup(const ContactGroup& group) {
     std::vector<std::string> common = plan.layout().defines();
     common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf),
                                  concat("MOST_WALLS ", ContactPlan::mostWalls)});
+    for (const std::string& one : group.defines())
+        common.push_back(one);
     if (group.triangles) common.push_back("TRIANGLES");
     if (contact_->remembers()) common.push_back("REMEMBERS");
     if (rests()) common.push_back("RESTING");

@@ -113,6 +113,9 @@ PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables
         if (plan.contact.remembers() && plan.contact.of(pass.group))
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
+        if (const ContactGroup* contact = plan.contact.of(pass.group))
+            for (const std::string& one : contact->defines())
+                wanted.defines.push_back(one);
         wanted.generated = {{"generated/fields.glsl", plan.fields.source},
                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
                             {"generated/colliders.glsl", plan.colliders.source}};

@@ -155,6 +155,8 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
     const auto define = [&](bool need, const char* name) {
         if (need) common.emplace_back(name);
     };
+    for (const std::string& one : group.defines())
+        common.push_back(one);
     define(plan.needs.pins, "PINS");
     define(plan.needs.release, "RELEASE");
     define(group.triangles, "TRIANGLES");

@@ -1,4 +1,5 @@
 // Fields that are kept, and those that a scene asks for.
+#include <algorithm>
 #include <cstring>
 
 #include "geometry/distance_field.h"
@@ -63,6 +64,60 @@ Scene readWith(const Scratch& scratch, const std::string& keys, const std::strin
 
 }  // namespace
 
+TEST_CASE("a field is kept by its mesh, wherever that stands", "[distanceField]") {
+    const Scratch scratch;
+    const FieldBaking baking{scratch.path("cache"), {}};
+    std::vector<Warning> warnings;
+    const DistanceField here = distanceFieldOf(torus(), small(), baking, warnings);
+    const glm::dvec3 by(12.3, -0.7, 100.1);
+    const auto movedTorus = [&](double size) {
+        Mesh out = torus();
+        for (glm::dvec3& place : out.positions)
+            place = size * place + by;
+        completeMesh(out);
+        return out;
+    };
+    const DistanceField there = distanceFieldOf(movedTorus(1), small(), baking, warnings);
+    CHECK(there.cached);
+    CHECK(there.distances == here.distances);
+    CHECK(glm::distance(there.grid.low, here.grid.low + by) < 1e-7);
+    CHECK(glm::distance(there.error.where, here.error.where + by) < 1e-7);
+    for (const glm::dvec3& x : {glm::dvec3(1.1, 0.2, 0.3), glm::dvec3(3, 0, 0)})
+        CHECK(valueAt(there, x + by).distance == Approx(valueAt(here, x).distance).margin(1e-7));
+    // and by nothing that happens to look alike
+    CHECK_FALSE(distanceFieldOf(movedTorus(1.001), small(), baking, warnings).cached);
+    CHECK(warnings.empty());
+}
+
+TEST_CASE("a scene bakes when all else of it is right", "[distanceField]") {
+    const Scratch scratch;
+    scratch.write("crate.obj", crate);
+    scratch.write("blade.json", smallMolecule);
+    std::string text = sceneWith(R"("model": "crate", "resolution": 8)");
+    text.insert(text.rfind("\"count\""), "\"drag\": -1, ");
+    const std::string file = scratch.write("wrong.scene.json", text);
+    const std::string refusal = messageOf([&] { readScene(file, {scratch.path("cache"), {}}); });
+    CHECK(refusal.find("$.groups[0].drag") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(scratch / "cache"));
+}
+
+TEST_CASE("a model stands on the ground", "[distanceField]") {
+    const Scratch scratch;
+    std::string text = sceneWith(R"("model": "crate", "resolution": 8)");
+    scratch.write("crate.obj", crate);
+    scratch.write("blade.json", smallMolecule);
+    text.insert(text.find("\"file\""),
+                R"("stand": true, "position": [5, 0, 1], "rotation": {"axis": [1, 0, 1], "angle": 0.7}, )");
+    const Scene scene = readScene(scratch.write("s.scene.json", text), {{}, {}});
+    const Mesh& mesh = scene.models[0].mesh;
+    CHECK(mesh.low.y == Approx(0).margin(1e-12));
+    CHECK(mesh.high.y > 1);
+    double lowest = 1e9;
+    for (const glm::dvec3& place : mesh.weldedPositions)
+        lowest = std::min(lowest, place.y);
+    CHECK(lowest == Approx(0).margin(1e-12));
+}
+
 TEST_CASE("a kept field has the same bits", "[distanceField]") {
     const Scratch scratch;
     const FieldBaking baking{scratch.path("cache"), {}};
@@ -75,8 +130,8 @@ TEST_CASE("a kept field has the same bits", "[distanceField]") {
     CHECK(sameBits(baked, kept));
     CHECK(kept.surface.closed());
     CHECK(warnings.empty());
-    // baked again, with other threads
-    CHECK(sameBits(baked, bakeDistanceField(torus(), small(), {}, 3)));
+    // baked again
+    CHECK(sameBits(baked, distanceFieldOf(torus(), small(), {}, warnings)));
 
     // another request or mesh is another field
     FieldRequest finer = small();
@@ -86,7 +141,7 @@ TEST_CASE("a kept field has the same bits", "[distanceField]") {
     finer.thickness = 0.02;
     CHECK_FALSE(distanceFieldOf(torus(), finer, baking, warnings).cached);
     Mesh moved = torus();
-    moved.positions[5].x += 1e-9;
+    moved.positions[5].x += 1e-6;
     completeMesh(moved);
     CHECK_FALSE(distanceFieldOf(moved, small(), baking, warnings).cached);
     CHECK(filesIn(scratch / "cache").size() == 4);

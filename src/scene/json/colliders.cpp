@@ -59,19 +59,22 @@ void load(HeightFieldCollider& out, const Where& where, SceneReading& reading) {
 }
 
 void load(DistanceFieldCollider& out, const Where& where, SceneReading& reading) {
-    const Model& model = reading.models[size_t(needModel(where, "model", out.model, reading.models))];
-    FieldRequest& request = out.request;
-    request.thickness = where.number("thickness", Collider().thickness);  // a key of every collider
-    if (request.resolution && request.error)
+    needModel(where, "model", out.model, reading.models);
+    if (out.request.resolution && out.request.error)
         throw Error(where.at("error"), "expected either \"resolution\" or \"error\", found both");
-    try {
-        out.field = distanceFieldOf(model.mesh, request, reading.baking, reading.warnings);
-    } catch (const Error& error) {
-        const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
-        throw Error(where.at(key), "model \"", model.name, "\": ", error.message());
+}
+
+// m: of the spheres that molecules carry.
+double largestRadius(const Scene& scene) {
+    double out = 0;
+    for (const Group& group : scene.groups) {
+        if (!group.contact || !group.collide) continue;
+        double scale = group.place.scale.y;
+        if (group.life) scale = std::max(scale, group.life->scale.y);
+        if (group.particle) scale *= std::max(group.particle->growth.x, group.particle->growth.y);
+        out = std::max(out, group.contact->radius * scale);
     }
-    for (const std::string& warning : fieldWarnings(out.field, request))
-        reading.warnings.push_back({where.at("model"), concat("model \"", model.name, "\" ", warning)});
+    return out;
 }
 
 void checkHeights(const HeightFieldCollider& field, const Where& where) {
@@ -92,6 +95,7 @@ void checkHeights(const HeightFieldCollider& field, const Where& where) {
 
 void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
     const DistanceField& field = collider.field;
+    if (where.given("model")) return;  // of a file they are baked when all else is read
     if (field.distances.empty() || field.distances.size() != field.grid.count())
         throw Error(where.at("field"), "expected ", field.grid.count(),
                     " distances, one a sample of a grid, found ", field.distances.size());
@@ -197,6 +201,26 @@ void checkSurfaces(const Scene& scene, const Where& whole) {
             needNamed(name, known, where.at("between"), "no collider and no group has the surface",
                       " (none names a \"surface\")");
         checkNew(rule, std::span(scene.surfacePairs).first(i), where);
+    }
+}
+
+void bakeFields(Scene& scene, const FieldBaking& baking, const Where& whole) {
+    const double radius = largestRadius(scene);
+    for (size_t i = 0; i < scene.colliders.size(); ++i) {
+        auto* out = std::get_if<DistanceFieldCollider>(&*scene.colliders[i].shape);
+        if (!out) continue;
+        const Where where = whole.in("colliders", i);
+        const Model& model = scene.models[size_t(needModel(where, "model", out->model, scene.models))];
+        FieldRequest& request = out->request;
+        request.thickness = std::max(scene.colliders[i].thickness, radius);
+        try {
+            out->field = distanceFieldOf(model.mesh, request, baking, scene.warnings);
+        } catch (const Error& error) {
+            const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
+            throw Error(where.at(key), "model \"", model.name, "\": ", error.message());
+        }
+        for (const std::string& warning : fieldWarnings(out->field, request))
+            scene.warnings.push_back({where.at("model"), concat("model \"", model.name, "\" ", warning)});
     }
 }
 

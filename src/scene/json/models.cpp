@@ -22,11 +22,20 @@ void placeMesh(Mesh& mesh, const Model& model) {
     for (auto* normals : {&mesh.normals, &mesh.weldedNormals})
         for (glm::dvec3& n : *normals)
             n = glm::normalize(turn * n);
-    mesh.low = mesh.high = mesh.positions.front();
-    for (const glm::dvec3& p : mesh.positions) {
-        mesh.low = glm::min(mesh.low, p);
-        mesh.high = glm::max(mesh.high, p);
-    }
+    const auto findBox = [&mesh] {
+        mesh.low = mesh.high = mesh.positions.front();
+        for (const glm::dvec3& p : mesh.positions) {
+            mesh.low = glm::min(mesh.low, p);
+            mesh.high = glm::max(mesh.high, p);
+        }
+    };
+    findBox();
+    if (!model.stand) return;
+    const double raised = model.position.y - mesh.low.y;
+    for (auto* points : {&mesh.positions, &mesh.weldedPositions})
+        for (glm::dvec3& p : *points)
+            p.y += raised;
+    findBox();
 }
 
 void load(Model& model, const Where& where, SceneReading& reading) {
@@ -95,6 +104,8 @@ const Description& describe(const Model*) {
             .key("position", &Model::position, {"m", "Where it is moved, after rotation and scale."})
             .rotation("rotation", &Model::rotation, {"", "How it is turned."})
             .key("scale", &Model::scale, {"", "Its size.", aboveZero()})
+            .key("stand", &Model::stand,
+                 {"", "Whether its lowest point is at the height of `position`, as on the ground at y = 0."})
             .key("draw", &Model::draw, {"", "Whether it is drawn."})
             .color("color", &Model::color,
                    {"", "What multiplies the colours of its materials, images and vertices."})

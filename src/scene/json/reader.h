@@ -19,10 +19,12 @@ void refuseHugeNumbers(const JsonValue& value, const std::string& file, const st
 // The context of keys that are read by hand (core/description.h). What is written by hand has the Scene.
 struct SceneReading {
     const std::vector<Model>& models;  // that were read before
-    const FieldBaking& baking;
     std::vector<Warning>& warnings;
     bool lenient = false;  // what is lost of a model is a warning, no error
 };
+
+// Bakes the distance fields of a scene of which all else is read, or takes them from where they are kept.
+void bakeFields(Scene& scene, const FieldBaking& baking, const Where& whole);
 
 // Derives a group's capacity from the keys of its life and emitters, unless a file gives it.
 void deriveLife(Group& group, const Where& where);

@@ -38,7 +38,6 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
     refuseHugeNumbers(root, after.file);
     const JsonValue& groups = groupsOf(root, after);
     std::vector<Group> out = after.groups;
-    const FieldBaking baking;
     for (size_t g = 0; g < groups.items.size(); ++g) {
         Group& group = out[g];
         const JsonValue* count = groups.items[g].find("count");
@@ -46,7 +45,7 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
         JsonReader reader(groups.items[g], after.file, concat("$.groups[", g, "]"));
         copyEdited(Group(), group);
         std::vector<Warning> warnings;
-        SceneReading reading{after.models, baking, warnings};
+        SceneReading reading{after.models, warnings};
         describe(&group).readSome(edited, reader, group, &reading);
         deriveLife(group, reader);
     }

@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "core/json.h"
 #include "core/where.h"
+#include "molecule/gap.h"
 #include "scene/field_files/field_file.h"
 #include "scene/json/reader.h"
 
@@ -79,13 +80,17 @@ Scene parseScene(const std::string& text, const std::string& file, const FieldBa
 
     Scene scene;
     scene.file = file;
-    SceneReading reading{scene.models, baking, scene.warnings, lenient};
+    SceneReading reading{scene.models, scene.warnings, lenient};
     describe(&scene).readFile(root, file, scene, &reading);
     if (const JsonValue* comment = root.find("comment")) scene.comment = comment->text;
+    for (Group& group : scene.groups)
+        if (group.contact && group.contact->radius == 0)
+            group.contact->radius = closingRadius(group.molecule, group.contact->triangles);
     JsonReader whole(root, file);
     for (size_t g = 0; g < scene.groups.size(); ++g)
         for (Warning& warning : warningsOf(scene.groups[g], Where(whole).in("groups", g)))
             scene.warnings.push_back(std::move(warning));
+    bakeFields(scene, baking, Where(whole));
     return scene;
 }
 

@@ -1,0 +1,228 @@
+#include "compile/scene_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "core/error.h"
+#include "molecule/gap.h"
+#include "scene/collider_kinds.h"
+#include "scene/force_kinds.h"
+
+namespace shoal {
+
+namespace {
+
+// Up, to two digits.
+double rounded(double value) {
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return std::ceil(value / unit) * unit;
+}
+
+// Warns of contact that no group takes part in, and of more steps of it than substeps.
+void warnOfUnused(const Scene& scene, Plan& plan) {
+    const ContactSettings& asked = scene.contact;
+    if (asked.location.empty()) return;
+    if (!plan.contact.any())
+        plan.warnings.push_back(
+            {asked.location,
+             "no group has \"contact\", so that molecules pass through one another: "
+             "\"contact\": {\"radius\": 0.01} in a group gives its vertices spheres of 1 cm"});
+    else if (asked.steps > plan.contact.steps)
+        plan.warnings.push_back(
+            {asked.location, concat("contact of ", asked.steps, " steps runs ", plan.contact.steps,
+                                    " times a frame, once a substep")});
+}
+
+// Warns of spheres that are larger than their molecule, and where they leave a gap in its surface through
+// which a like sphere passes.
+void warnOfSpheres(const Scene& scene, Plan& plan) {
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        const GroupContact& asked = *scene.groups[group.index].contact;
+        const double size = scene.groups[group.index].molecule.size();
+        if (group.vertexCount > 1 && asked.radius > size)
+            plan.warnings.push_back(
+                {asked.location,
+                 concat("the spheres of \"", group.name, "\", with a radius of ", asked.radius,
+                        " m, are larger than the molecule, which is ", size, " m long")});
+        const Gap gap = largestGap(scene.groups[group.index].molecule, asked);
+        if (gap.radius <= asked.radius) continue;
+        plan.warnings.push_back(
+            {asked.location,
+             concat("the spheres of \"", group.name, "\" leave a gap in triangle ", gap.triangle,
+                    " through which a sphere of radius ", gap.radius, " m passes, larger than their own: ",
+                    asked.triangles ? "a larger radius closes it"
+                                    : "\"triangles\": true or a larger radius closes it")});
+    }
+}
+
+// Fields and winds move what has drag, and nothing else. What has a velocity of its own may drift without.
+void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& plan,
+                    std::vector<Warning>& warnings) {
+    const bool wind = std::any_of(scene.forces.begin(), scene.forces.end(), [&](const Force& force) {
+        return std::holds_alternative<WindForce>(*force.shape) && actsOn(force, group.name);
+    });
+    if (plan.needs.drag || group.velocity != glm::dvec3(0) || (scene.fields.empty() && !wind)) return;
+    warnings.push_back({group.location, concat("\"", plan.name, "\" has no \"drag\", through which ",
+                                               wind ? "wind" : "fields", " would move it: it feels none")});
+}
+
+// m: the radius of the widest that has to get through a gap when the shape does; nothing: it is as wide as
+// the world, or of unknown form.
+struct Girth {
+    template <typename Kind>
+    std::optional<double> operator()(const Kind&) const {
+        return {};
+    }
+    std::optional<double> operator()(const SphereCollider& sphere) const { return sphere.radius; }
+    std::optional<double> operator()(const CapsuleCollider& capsule) const { return capsule.radius; }
+    std::optional<double> operator()(const BoxCollider& box) const {
+        const glm::dvec3 half = 0.5 * box.size;
+        const double longest = std::max({half.x, half.y, half.z});
+        return std::sqrt(glm::dot(half, half) - longest * longest);
+    }
+};
+
+// Vertices alone touch colliders: what is thinner than the gap between three of them passes through the
+// triangle.
+void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan& plan,
+                         std::vector<Warning>& warnings) {
+    constexpr int many = 1000;  // vertices, whose gaps take too long to look at
+    if (!plan.needs.collide || group.molecule.triangles.empty() || plan.vertexCount > many) return;
+    const double scale = largestScale(plan), radius = group.contact ? group.contact->radius * scale : 0;
+    std::optional<Gap> gap;
+    std::string names;
+    size_t count = 0;
+    double needed = 0;  // m, of a radius
+    for (const Collider& collider : scene.colliders) {
+        const std::optional<double> girth = std::visit(Girth{}, *collider.shape);
+        if (!girth) continue;
+        if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, false), 0);
+        if (*girth + std::max(collider.thickness, radius) >= gap->radius * scale) continue;
+        needed = std::max(needed, gap->radius - *girth / scale);
+        if (++count > 3) continue;
+        names += concat(count > 1 ? ", " : "", "the ", kindName(*collider.shape),
+                        collider.name.empty() ? "" : concat(" \"", collider.name, "\""), " with a radius of ",
+                        *girth, " m");
+    }
+    if (count == 0) return;
+    if (count > 3) names += concat(" and ", count - 3, " more");
+    warnings.push_back(
+        {group.location,
+         concat("vertices alone touch colliders: through triangle ", gap->triangle, " of \"", plan.name,
+                "\", between whose vertices a sphere of ", gap->radius * scale, " m passes, ",
+                count > 1 ? "pass " : "passes ", names,
+                ": a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
+}
+
+// Warns of crowds: each sphere is compared with all that share its cells, so many in one place cost the
+// square of their number.
+void warnOfCrowds(const Scene& scene, Plan& plan) {
+    constexpr double many = 64;
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        const double reach = 2 * plan.contact.largestRadius;
+        std::vector<size_t> cells;
+        const size_t there = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
+        for (size_t m = 0; m < there; ++m) {
+            const glm::dvec3 place =
+                glm::floor((glm::dvec3(group.start.anchors[m]) +
+                            glm::dvec3(group.start.positions[m * size_t(group.vertexCount)])) /
+                           reach);
+            cells.push_back(std::hash<double>()(place.x) ^ (std::hash<double>()(place.y) * 31) ^
+                            (std::hash<double>()(place.z) * 1009));
+        }
+        std::sort(cells.begin(), cells.end());
+        double others = 0;
+        for (size_t first = 0, i = 0; i <= cells.size(); ++i) {
+            if (i < cells.size() && cells[i] == cells[first]) continue;
+            others += double(i - first) * double(i - first);
+            first = i;
+        }
+        if (there == 0 || others / double(there) <= many) continue;
+        plan.warnings.push_back(
+            {scene.groups[group.index].contact->location,
+             concat(
+                 "the molecules of \"", group.name, "\" start crowded: one has about ",
+                 std::round(others / double(there)), " others within ", reach,
+                 " m, where their spheres may touch. Each pair is looked at, which takes long, and a sphere "
+                 "keeps at most ",
+                 plan.contact.listLength, " of them: a larger place or a smaller radius helps")});
+    }
+}
+
+// What swims lies along +Z, and swims with its muscles; a point has neither.
+void warnOfSwimmers(const Scene& scene, const Group& group, const GroupPlan& plan,
+                    std::vector<Warning>& warnings) {
+    const Molecule& molecule = group.molecule;
+    if (!group.school || plan.vertexCount < 2) return;
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const Vertex& vertex : molecule.vertices)
+        low = glm::min(low, vertex.position), high = glm::max(high, vertex.position);
+    const glm::dvec3 extent = high - low;
+    const int across = extent.x > extent.y ? 0 : 1;
+    if (extent[across] > extent.z)
+        warnings.push_back(
+            {group.school->location, concat("the molecule of \"", plan.name, "\" is ", extent[across],
+                                            " m long along ", "XY"[across], " and ", extent.z,
+                                            " m along +Z, the way it swims: it swims across its length "
+                                            "(\"molecule from-mesh --forward\" turns a mesh)")});
+    if (std::none_of(molecule.springs.begin(), molecule.springs.end(), [](const Spring& spring) {
+            return spring.actuation && spring.actuation->amplitude != 0;
+        }))
+        warnings.push_back(
+            {group.school->location,
+             concat("the molecule of \"", plan.name,
+                    "\" has no muscle to swim and turn with, and is pushed "
+                    "along: \"actuation\" of its springs is one (\"molecule new --shape fish\" has them)")});
+    if (!scene.water) return;
+    const std::vector<glm::vec3>& anchors = plan.start.anchors;
+    const auto above = std::count_if(anchors.begin(), anchors.end(), [&](const glm::vec3& anchor) {
+        return anchor.y > scene.water->surface + molecule.size();
+    });
+    constexpr double few = 0.05;  // which leap
+    if (double(above) > few * double(anchors.size()))
+        warnings.push_back(
+            {group.location, concat(above, " of ", anchors.size(), " molecules of \"", plan.name,
+                                    "\" start in the air, above the water's \"surface\" at y = ",
+                                    scene.water->surface, " m, and swim there")});
+}
+
+// A point touches at its middle, however large it is drawn, unless contact gives it a radius.
+void warnOfSizes(const Scene& scene, const Group& group, const GroupPlan& plan,
+                 std::vector<Warning>& warnings) {
+    constexpr double seen = 0.02;  // m, below which nobody sees what sinks
+    const bool drawn = !group.particle || (group.particle->blend == Blend::none &&
+                                           group.particle->shape != ParticleShape::points);
+    if (!plan.needs.collide || group.contact || plan.vertexCount > 1 || !group.molecule.skin.empty() ||
+        !drawn)
+        return;
+    const double radius = 0.5 * group.molecule.material.pointSize;
+    double sunk = 0;  // m, the most
+    for (const Collider& collider : scene.colliders)
+        sunk = std::max(sunk, radius - collider.thickness);
+    if (sunk <= std::max(seen, 0.5 * radius)) return;
+    warnings.push_back(
+        {group.location, concat("the points of \"", plan.name, "\" are drawn ", 2 * radius,
+                                " m wide and touch colliders with their middle, in which they sink by ", sunk,
+                                " m: \"contact\": {\"radius\": ", radius, "} gives them their size")});
+}
+
+}  // namespace
+
+void warnOf(const Scene& scene, Plan& plan) {
+    for (const GroupPlan& group : plan.groups) {
+        const Group& source = scene.groups[group.index];
+        warnOfStillAir(scene, source, group, plan.warnings);
+        warnOfSwimmers(scene, source, group, plan.warnings);
+        warnOfThinColliders(scene, source, group, plan.warnings);
+        warnOfSizes(scene, source, group, plan.warnings);
+    }
+    warnOfUnused(scene, plan);
+    warnOfSpheres(scene, plan);
+    warnOfCrowds(scene, plan);
+}
+
+}  // namespace shoal

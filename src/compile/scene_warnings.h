@@ -1,0 +1,13 @@
+// What is valid in a scene and probably not what was meant, as far as a plan shows it.
+#pragma once
+
+#include "compile/plan.h"
+
+namespace shoal {
+
+// Adds to the plan's warnings, when all else of it is made: contact of no group, spheres that are too large
+// or leave gaps, crowds, fields that nothing feels, schools that cannot swim, and what is drawn larger than
+// it touches.
+void warnOf(const Scene& scene, Plan& plan);
+
+}  // namespace shoal
