@@ -111,10 +111,9 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     if (count > 3) names += concat(" and ", count - 3, " more");
     warnings.push_back(
         {group.location,
-         concat("vertices alone touch colliders: through triangle ", gap->triangle, " of \"", plan.name,
-                "\", between whose vertices a sphere of ", gap->radius * scale, " m passes, ",
-                count > 1 ? "pass " : "passes ", names,
-                ": a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
+         concat(names, count > 1 ? " pass" : " passes", " through triangle ", gap->triangle, " of \"",
+                plan.name, "\": its vertices alone touch colliders, and leave a gap of ", gap->radius * scale,
+                " m: a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
 }
 
 // Warns of crowds: each sphere is compared with all that share its cells, so many in one place cost the

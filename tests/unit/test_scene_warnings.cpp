@@ -59,8 +59,9 @@ TEST_CASE("what is thinner than the gaps between vertices is warned of", "[warni
         return concat(R"({"type": "sphere", "name": "ball", "center": [0, 0, 0], "radius": )", radius, "}");
     };
     const std::string plane = R"({"type": "plane"})";
-    CHECK_THAT(warningsOf(ball(0.3), aSheet), Contains("passes the sphere \"ball\" with a radius of 0.3 m") &&
-                                                  Contains("\"radius\": 0.054"));
+    CHECK_THAT(warningsOf(ball(0.3), aSheet),
+               Contains("the sphere \"ball\" with a radius of 0.3 m passes through triangle 0") &&
+                   Contains("\"radius\": 0.054"));
     CHECK_THAT(warningsOf(ball(0.36) + ", " + plane, aSheet), !Contains("alone touch"));
     CHECK_THAT(warningsOf(ball(0.3), aSheet + R"(, "contact": {"radius": 0.06})"), !Contains("alone touch"));
     CHECK_THAT(warningsOf(ball(0.3), aSheet + R"(, "collide": false)"), !Contains("alone touch"));
