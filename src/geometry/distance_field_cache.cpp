@@ -49,30 +49,26 @@ glm::dvec3 middleOf(const Mesh& mesh) {
     return 0.5 * (mesh.low + mesh.high);
 }
 
-// The shape about the origin, to a step far below a float's: the same to the bit wherever the mesh stands.
-// The step is a power of 2, so that what is a short binary fraction stays exact; no decimal lies half way
-// between two steps, where a rounding would take it to either.
-Mesh shapeOf(const Mesh& mesh) {
-    Mesh out = mesh;
+// Places about the middle, to a step far below a float's: the same wherever the mesh stands. The step is a
+// power of 2, because no decimal lies half way between two such steps, where a rounding would take it to
+// either.
+std::vector<glm::dvec3> shapeOf(const Mesh& mesh) {
     const glm::dvec3 middle = middleOf(mesh), extent = mesh.high - mesh.low;
     const double size = std::max({extent.x, extent.y, extent.z});
-    if (!(size > 0)) return out;
+    if (!(size > 0)) return mesh.positions;
     constexpr int digits = 26;  // binary, of the size
     const double step = std::ldexp(1.0, std::ilogb(size * (1 - 1e-9)) - digits);
-    const auto snapped = [&](const glm::dvec3& place) {
-        return step * glm::round((place - middle) / step) + 0.0;  // never -0
-    };
-    for (auto* places : {&out.positions, &out.weldedPositions})
-        std::transform(places->begin(), places->end(), places->begin(), snapped);
-    out.low = snapped(mesh.low);
-    out.high = snapped(mesh.high);
+    std::vector<glm::dvec3> out;
+    out.reserve(mesh.positions.size());
+    for (const glm::dvec3& place : mesh.positions)
+        out.push_back(step * glm::round((place - middle) / step) + 0.0);  // never -0
     return out;
 }
 
-std::string keyOf(const Mesh& shape, const FieldRequest& request) {
-    std::string all = concat("field ", bakingVersion, " ", shape.positions.size(), " ");
-    all += bytesOf(shape.positions);
-    all += bytesOf(shape.triangles);
+std::string keyOf(const Mesh& mesh, const FieldRequest& request) {
+    std::string all = concat("field ", bakingVersion, " ", mesh.positions.size(), " ");
+    all += bytesOf(shapeOf(mesh));
+    all += bytesOf(mesh.triangles);
     const double asked[] = {double(request.resolution.value_or(0)), request.error.value_or(0),
                             request.shell.value_or(0), request.thickness};
     all.append(reinterpret_cast<const char*>(asked), sizeof asked);
@@ -166,23 +162,28 @@ void keep(const fs::path& path, const std::string& key, const DistanceField& fie
 
 }  // namespace
 
-static DistanceField ofShape(const Mesh& shape, const FieldRequest& request, const FieldBaking& baking,
-                             std::vector<Warning>& warnings) {
-    if (baking.cache.empty()) return bakeDistanceField(shape, request, baking.progress);
-    const std::string key = keyOf(shape, request);
+static void move(DistanceField& field, const glm::dvec3& by) {
+    for (glm::dvec3* place : {&field.grid.low, &field.thinWhere, &field.error.where})
+        *place += by;
+}
+
+// About the middle of its mesh.
+static DistanceField aboutMiddle(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
+                                 std::vector<Warning>& warnings) {
+    const std::string key = baking.cache.empty() ? "" : keyOf(mesh, request);
     const fs::path path = fs::path(baking.cache) / (key + extension);
     DistanceField field;
-    if (readCached(path, key, field, warnings)) return field;
-    field = bakeDistanceField(shape, request, baking.progress);
-    keep(path, key, field, warnings);
+    if (!key.empty() && readCached(path, key, field, warnings)) return field;
+    field = bakeDistanceField(mesh, request, baking.progress);
+    move(field, -middleOf(mesh));
+    if (!key.empty()) keep(path, key, field, warnings);
     return field;
 }
 
 DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
                               std::vector<Warning>& warnings) {
-    DistanceField field = ofShape(shapeOf(mesh), request, baking, warnings);
-    for (glm::dvec3* place : {&field.grid.low, &field.thinWhere, &field.error.where})
-        *place += middleOf(mesh);
+    DistanceField field = aboutMiddle(mesh, request, baking, warnings);
+    move(field, middleOf(mesh));
     field.surface = examineSurface(mesh);
     return field;
 }
