@@ -1,20 +1,16 @@
 #include "app/plot.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "app/options.h"
+#include "core/child_process.h"
 #include "core/file.h"
+#include "core/image.h"
 #include "core/printable.h"
 
 namespace shoal::app {
@@ -27,58 +23,42 @@ namespace {
 
 // ---- gnuplot
 
-int memoryFile(const char* what) {
-    const int out = memfd_create(what, MFD_CLOEXEC);
-    if (out < 0) throw Error(concat("cannot hold ", what, " in memory: ", std::strerror(errno)));
-    return out;
-}
+constexpr double gnuplotSeconds = 120;  // the largest picture takes a few
 
-std::string contents(int file) {
-    std::string out(4096, '\0');
-    const ssize_t size = pread(file, out.data(), out.size(), 0);
-    out.resize(size_t(std::max<ssize_t>(0, size)));
-    return out;
-}
-
-// Its exit code; the picture goes to the file `output`, what it says to `log`.
-int runGnuplot(const std::string& program, const std::string& script, int output, std::string& log) {
-    const int input = memoryFile("gnuplot's script"), messages = memoryFile("gnuplot's messages");
-    for (size_t done = 0; done < script.size();) {
-        const ssize_t part = ::write(input, script.data() + done, script.size() - done);
-        if (part <= 0) throw Error("cannot write gnuplot's script");
-        done += size_t(part);
+// What it has drawn is read again, since gnuplot ends well also when the disk was full. Error: it is cut off.
+void checkPicture(const std::string& bytes, const std::string& file) {
+    if (lowerExtension(file) != ".svg") {
+        decodePng(bytes, file);
+        return;
     }
-    lseek(input, 0, SEEK_SET);
-    const pid_t process = fork();
-    if (process == 0) {
-        // Only calls that are safe between fork and exec.
-        dup2(input, STDIN_FILENO);
-        dup2(output, STDOUT_FILENO);
-        dup2(messages, STDERR_FILENO);
-        // Without the user's settings, and those of the folder.
-        execl(program.c_str(), "gnuplot", "-d", "-", static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    int status = -1;
-    while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    log = contents(messages);
-    close(input);
-    close(messages);
-    return process > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const size_t end = bytes.find_last_not_of(" \n");
+    constexpr std::string_view last = "</svg>";
+    if (end == std::string::npos || !std::string_view(bytes).substr(0, end + 1).ends_with(last))
+        throw Error(concat("the picture does not end with ", last));
 }
 
 // `script`: what gnuplot is told; the picture is its standard output, so that it never hears the file's name.
 // It replaces `file` (.svg or .png) when it is whole; folders are made.
-// Error: gnuplot fails, with its words; the file cannot be written.
+// Error: gnuplot fails, with its words, hangs, or draws half of it; the file cannot be written.
 void drawWithGnuplot(const std::string& file, const std::string& script) {
     PartFile part(fs::absolute(file));
-    std::string log;
-    const int code = runGnuplot(findProgram("gnuplot"), script, part.file(), log);
-    std::error_code error;
-    const bool written = fs::exists(part.path(), error) && fs::file_size(part.path(), error) > 0;
-    if (code != 0 || !written)
-        throw Error(concat(file, ": gnuplot did not draw it", log.empty() ? "" : ": ", indented(log)));
+    const MemoryFile input(script), messages;
+    // Without the user's settings, and those of the folder.
+    const auto gnuplot =
+        startProgram({findProgram("gnuplot"), "-d", "-"}, {input.file(), part.file(), messages.file()});
+    const std::optional<int> status = gnuplot->wait(gnuplotSeconds);
+    const std::string log = lastWords(messages);
+    const auto fail = [&](const std::string& why) {
+        throw Error(concat(file, ": gnuplot did not draw it", why.empty() ? "" : ": ", indented(why)));
+    };
+    if (!status) fail(concat("it had not ended after ", gnuplotSeconds, " s"));
+    if (exitCode(*status) != 0) fail(log);
+    try {
+        checkPicture(readFile(part.path()), file);
+    } catch (const Error& error) {
+        fail(concat("what it wrote is not whole", log.empty() ? "" : ", ",
+                    log.empty() ? error.message() : log));
+    }
     part.replaceTarget();
 }
 

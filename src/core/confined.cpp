@@ -52,15 +52,6 @@ void setLimit(decltype(RLIMIT_AS) what, double now, double most) {
     setrlimit(what, &limit);
 }
 
-// Handlers of the parent's (of crashes, of Ctrl-C) would act on what is not theirs here.
-void forgetSignals() {
-    for (int signal = 1; signal < NSIG; ++signal)
-        std::signal(signal, SIG_DFL);  // of those that cannot be caught it fails, and need not succeed
-    sigset_t none;
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, nullptr);
-}
-
 // Drops the standard streams, because what a dying library prints is no message of ours, and closes the
 // parent's files except the pipe.
 void keepOnly(int pipe) {
@@ -135,47 +126,28 @@ Confined::Confined(const Location& file, const ConfinedLimits& limits,
     const double memoryBefore = addressSpace();
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(concat("no pipe to a reader: ", std::strerror(errno)));
-    // No handler of the parent's runs between the fork and forgetSignals().
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    const pid_t parent = getpid();
-    child_ = fork();
-    if (child_ == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits any more
-        prctl(PR_SET_DUMPABLE, 0);         // a crash leaves no core
-        if (getppid() != parent) _exit(1);
-        forgetSignals();
+    pipe_ = ends[0];
+    const auto inChild = [&] {
+        prctl(PR_SET_DUMPABLE, 0);                    // a crash leaves no core
+        std::signal(SIGXCPU, SIG_DFL);                // of the limit, also where the parent ignores it
         const int pipe = fcntl(ends[1], F_DUPFD, 3);  // beyond the streams, which may be closed
         keepOnly(pipe);
         std::set_new_handler([] { _exit(outOfMemory); });
         ToParent to(pipe, limits, memoryBefore);
         workInChild(to, file.file, work);
+    };
+    try {
+        child_ = std::make_unique<ChildProcess>(inChild);
+    } catch (const Error& error) {
+        close(ends[0]);
+        close(ends[1]);
+        fail(error.message());
     }
-    const int why = errno;
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
     close(ends[1]);
-    pipe_ = ends[0];
-    if (child_ < 0) {
-        close(pipe_);
-        fail(concat("no process to read it in: ", std::strerror(why)));
-    }
 }
 
 Confined::~Confined() {
-    if (child_ > 0) kill(child_, SIGKILL);
-    reap();
     close(pipe_);
-}
-
-// The status; 0 where somebody else took it.
-int Confined::reap() {
-    int status = 0;
-    pid_t ended = -1;
-    while (child_ > 0 && (ended = waitpid(child_, &status, 0)) < 0 && errno == EINTR) {
-    }
-    child_ = -1;
-    return ended > 0 ? status : 0;
 }
 
 uint64_t Confined::nextArray(size_t elementBytes) {
@@ -233,7 +205,7 @@ void Confined::failTime(double seconds, const char* of) const {
 }
 
 void Confined::failEnded() {
-    const int status = reap();
+    const int status = *child_->wait(1e9);  // the pipe is closed: it has ended, or is about to
     const double seconds = limits_.secondsFor(fileBytes_);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) failTime(seconds, " of processor time");
     if (WIFSIGNALED(status))

@@ -10,12 +10,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include <sys/types.h>
-
+#include "core/child_process.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -87,11 +87,10 @@ class Confined {
     [[noreturn]] void failEnded();
     [[noreturn]] void failTime(double seconds, const char* of) const;
     std::string filesText() const;
-    int reap();
 
     Location file_;
     ConfinedLimits limits_;
-    pid_t child_ = -1;
+    std::unique_ptr<ChildProcess> child_;
     int pipe_ = -1;
     double start_, fileBytes_ = 0, taken_ = 0;
 };

@@ -1,12 +1,12 @@
 // Where pictures go: a folder, a name with a number in it, or a video (video_writer.cpp).
 #pragma once
 
-#include <sys/types.h>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "core/child_process.h"
 #include "core/file.h"
 #include "core/image.h"
 
@@ -31,28 +31,33 @@ class VideoWriter {
     static bool installed();       // whether ffmpeg is
     static void checkInstalled();  // Error: it is not; says how to get it
 
-    // Error: ffmpeg cannot be started, or PartFile's.
-    // `alpha`: straight, of a file that isVideoWithAlpha.
-    VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha = false);
+    // `alpha`: straight, of a file that isVideoWithAlpha. `patience`: s, how long ffmpeg may neither take nor
+    // write anything. Error: ffmpeg cannot be started, or PartFile's.
+    VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha = false,
+                double patience = 120);
     ~VideoWriter();  // without finish(): nothing is left behind
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // RGBA of the size given at the start. Error: another size, or ffmpeg stopped.
+    // RGBA of the size given at the start. Error: another size, or ffmpeg stopped, or hangs.
     void write(const Image& picture);
-    // Waits for ffmpeg and gives the file its name. Error: ffmpeg failed, with what it said.
+    // Waits for ffmpeg, counts the pictures of what it wrote, and gives the file its name. Error: ffmpeg
+    // failed, with what it said, hangs, or wrote other than it was given.
     void finish();
 
   private:
-    int wait();  // exit status of ffmpeg, -1 when a signal ended it
     [[noreturn]] void fail(const std::string& what);
-    std::string complaint() const;  // the end of what ffmpeg said
+    [[noreturn]] void failWaiting(const char* forWhat);
+    int waitWhileItWrites(ChildProcess& program, int written);
+    void checkPictures();
 
     std::filesystem::path file_;
     PartFile part_;
     int width_, height_;
-    int pipe_ = -1, log_ = -1;
-    pid_t process_ = -1;
+    double patience_;
+    int pictures_ = 0, pipe_ = -1;
+    std::unique_ptr<MemoryFile> log_;  // what ffmpeg says
+    std::unique_ptr<ChildProcess> process_;
 };
 
 // Takes the pictures of a run, one a frame.

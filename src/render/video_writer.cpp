@@ -1,15 +1,16 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <sstream>
 #include <vector>
 
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/printable.h"
@@ -31,28 +32,18 @@ void VideoWriter::checkInstalled() {
 
 namespace {
 
-// ffmpeg gets what ends the whole group of processes as we do (Ctrl-C, systemd, timeout), and would stop
-// before the last picture. It inherits that these are held back; when the pipe is closed, it ends by itself.
-class EndingSignalsHeld {
-  public:
-    EndingSignalsHeld() {
-        sigset_t ending;
-        sigemptyset(&ending);
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-            sigaddset(&ending, signal);
-        pthread_sigmask(SIG_BLOCK, &ending, &before_);
-    }
-    ~EndingSignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    EndingSignalsHeld(const EndingSignalsHeld&) = delete;
-    EndingSignalsHeld& operator=(const EndingSignalsHeld&) = delete;
-
-  private:
-    sigset_t before_{};
-};
-
 void closeFile(int& file) {
     if (file >= 0) close(file);
     file = -1;
+}
+
+// Lines of ffmpeg's list of pictures, as `-f framecrc` writes it, that are no comment.
+int picturesIn(const std::string& list) {
+    std::istringstream lines(list);
+    int out = 0;
+    for (std::string line; std::getline(lines, line);)
+        out += !line.empty() && line[0] != '#';
+    return out;
 }
 
 }  // namespace
@@ -66,8 +57,9 @@ static std::vector<std::string> codecOf(const std::filesystem::path& file, bool 
     return {"-pix_fmt", "yuv420p", "-c:v", vp9 ? "libvpx-vp9" : "libx264", "-crf", vp9 ? "24" : "18"};
 }
 
-VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha)
-    : file_(std::move(file)), part_(file_), width_(width), height_(height) {
+VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate, bool alpha,
+                         double patience)
+    : file_(std::move(file)), part_(file_), width_(width), height_(height), patience_(patience) {
     const std::string program = findProgram("ffmpeg");
     if (program.empty()) checkInstalled();
     // ffmpeg chooses the container by the extension, which part_ has, too.
@@ -79,74 +71,40 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
     for (std::string& word : codecOf(file_, alpha))
         arguments.push_back(std::move(word));
     arguments.push_back(std::filesystem::absolute(part_.path()).string());
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error(concat("cannot make a pipe to ffmpeg: ", std::strerror(errno)));
-    // In memory: what ffmpeg has to say about a full disk must not need that disk.
-    log_ = memfd_create("ffmpeg's log", MFD_CLOEXEC);
-    const EndingSignalsHeld held;
-    const pid_t parent = getpid();
-    process_ = log_ >= 0 ? fork() : -1;
-    if (process_ == 0) {
-        // Only calls that are safe between fork and exec.
-        prctl(PR_SET_PDEATHSIG, SIGKILL);     // its file is removed with us
-        if (getppid() != parent) _exit(127);  // who has died before that sends no signal
-        dup2(ends[0], STDIN_FILENO);
-        dup2(log_, STDOUT_FILENO);
-        dup2(log_, STDERR_FILENO);
-        execv(argv[0], argv.data());
-        _exit(127);
-    }
-    const int forkError = errno;
-    close(ends[0]);
     pipe_ = ends[1];
-    if (process_ > 0) return;
-    closeFile(pipe_);
-    closeFile(log_);
-    throw Error(concat("cannot start ffmpeg: ", std::strerror(forkError)));
+    fcntl(pipe_, F_SETFL, O_NONBLOCK);  // of our end alone: one that hangs is not waited for
+    // In memory: what ffmpeg has to say about a full disk must not need that disk.
+    log_ = std::make_unique<MemoryFile>();
+    try {
+        process_ = startProgram(arguments, {ends[0], log_->file(), log_->file()});
+    } catch (const Error& error) {
+        close(ends[0]);
+        closeFile(pipe_);
+        throw Error(concat("cannot start ffmpeg: ", error.message()));
+    }
+    close(ends[0]);
 }
 
 VideoWriter::~VideoWriter() {
-    if (process_ > 0) {
-        kill(process_, SIGKILL);  // the file is removed: there is nothing to finish
-        closeFile(pipe_);
-        wait();
-    }
-    closeFile(log_);
-}
-
-int VideoWriter::wait() {
-    int status = 0;
-    pid_t ended;
-    do {
-        ended = waitpid(process_, &status, 0);
-    } while (ended < 0 && errno == EINTR);
-    process_ = -1;
-    return ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::string VideoWriter::complaint() const {
-    std::string text;
-    char chunk[1024];
-    ssize_t count;
-    while ((count = pread(log_, chunk, sizeof chunk, off_t(text.size()))) > 0)
-        text.append(chunk, size_t(count));
-    while (!text.empty() && text.back() == '\n')
-        text.pop_back();
-    return text.size() > 600 ? "..." + text.substr(text.size() - 600) : text;
+    process_.reset();  // the file is removed: there is nothing to finish
+    closeFile(pipe_);
 }
 
 void VideoWriter::fail(const std::string& what) {
     closeFile(pipe_);
-    if (process_ > 0) wait();
-    const std::string reason = complaint();
+    process_->wait(1);  // for its last words
+    const std::string reason = lastWords(*log_);
+    process_->end();
     throw Error(
         concat(file_.string(), ": ", what, ": ", reason.empty() ? "it gave no reason" : indented(reason)));
+}
+
+void VideoWriter::failWaiting(const char* forWhat) {
+    process_->end();
+    fail(concat("ffmpeg has ", forWhat, " for ", patience_, " s and was ended"));
 }
 
 namespace {
@@ -190,23 +148,58 @@ void VideoWriter::write(const Image& picture) {
     {
         const BrokenPipeHeld held;
         while (sent < picture.pixels.size() && error == 0) {
+            pollfd ready{pipe_, POLLOUT, 0};
+            const int some = poll(&ready, 1, int(1000 * patience_));
+            if (some == 0) failWaiting("taken nothing");
+            if (some < 0) {
+                error = errno == EINTR ? 0 : errno;
+                continue;
+            }
             const ssize_t count = ::write(pipe_, picture.pixels.data() + sent, picture.pixels.size() - sent);
             if (count > 0) {
                 sent += size_t(count);
-            } else if (count == 0 || errno != EINTR) {
+            } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
                 error = count == 0 ? EIO : errno;
             }
         }
     }
     if (sent < picture.pixels.size()) fail("ffmpeg stopped before the video's end");
+    ++pictures_;
+}
+
+// Waits for as long as the program, or what it writes, shows life.
+int VideoWriter::waitWhileItWrites(ChildProcess& program, int written) {
+    off_t before = -1;
+    for (;;) {
+        if (const std::optional<int> status = program.wait(patience_)) return exitCode(*status);
+        struct stat now {};
+        if (::fstat(written, &now) != 0 || now.st_size == before) failWaiting("written nothing");
+        before = now.st_size;
+    }
 }
 
 void VideoWriter::finish() {
     closeFile(pipe_);
-    const int status = wait();
+    const int status = waitWhileItWrites(*process_, part_.file());
     // It ends well even when the file's end could not be written; then it has said so.
-    if (status != 0 || !complaint().empty()) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
+    if (status != 0 || !lastWords(*log_).empty())
+        fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
+    checkPictures();
     part_.replaceTarget();
+}
+
+// Its word alone says nothing: the video is decoded, and its pictures are counted.
+void VideoWriter::checkPictures() {
+    const MemoryFile nothing, list;
+    log_ = std::make_unique<MemoryFile>();
+    process_ = startProgram({findProgram("ffmpeg"), "-hide_banner", "-loglevel", "error", "-nostdin", "-i",
+                             std::filesystem::absolute(part_.path()).string(), "-map", "0:v:0",
+                             "-flush_packets", "1", "-f", "framecrc", "pipe:1"},
+                            {nothing.file(), list.file(), log_->file()});
+    const int status = waitWhileItWrites(*process_, list.file());
+    const int found = picturesIn(list.text());
+    if (status != 0 || found != pictures_)
+        fail(concat("ffmpeg wrote a video of ", found, " pictures, expected ", pictures_));
 }
 
 }  // namespace shoal

@@ -117,6 +117,18 @@ TEST_CASE("bench asks for gnuplot before it measures", "[cli]") {
     REQUIRE(failed.messages().size() == 1);
     CHECK_THAT(failed.messages()[0], Catch::Contains("gnuplot did not draw it: cannot draw"));
     CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"gnuplot"});
+
+    // one that ends well on a full disk: the old picture stays
+    scratch.write("speed.svg", "old");
+    scratch.write("gnuplot", "#!/bin/sh\necho '<svg><path d=\"M 0'\n");
+    const Outcome cut = runShoal(words, {.environment = {{"PATH", scratch.folder().string()}}});
+    CHECK(cut.code == 1);
+    REQUIRE(cut.messages().size() == 1);
+    CHECK_THAT(cut.messages()[0],
+               Catch::Contains("speed.svg: gnuplot did not draw it: what it wrote is not whole, the picture "
+                               "does not end with </svg>"));
+    CHECK(readFile(scratch.path("speed.svg")) == "old");
+    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"gnuplot", "speed.svg"});
 }
 
 TEST_CASE("bench plots", "[cli]") {

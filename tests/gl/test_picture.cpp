@@ -34,6 +34,16 @@ void writeScript(const Scratch& scratch, const std::string& text) {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
 }
 
+// Stands in for the encoder of pictures of 7 x 5: keeps the raw bytes in the file that the last argument
+// names. Asked what is in a file, it lists its pictures.
+const std::string keeper = R"(
+for last; do :; done
+while [ $# -gt 1 ]; do [ "$1" = -i ] && in=$2; shift; done
+[ "$last" = pipe:1 ] || { cat > "$last"; exit; }
+echo "#comment"
+for i in $(seq $(($(wc -c < "$in") / 140))); do echo "0, $i"; done
+)";
+
 size_t filesIn(const std::string& folder) {
     size_t count = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder))
@@ -93,8 +103,7 @@ TEST_CASE("an ffmpeg that fails is an error with its own words, and leaves nothi
 
 TEST_CASE("a video gets its name when it is whole", "[picture]") {
     const Scratch scratch;
-    // Stands in for the encoder: keeps the raw bytes in the file that the last argument names.
-    writeScript(scratch, "for last; do :; done\ncat > \"$last\"\n");
+    writeScript(scratch, keeper);
     std::filesystem::create_directory(scratch.path("out"));
     const Path path(scratch.path("bin") + ":/usr/bin:/bin");
     const std::string file = scratch.path("out/a; rm -rf b.mp4");  // no shell looks at the name
@@ -117,5 +126,48 @@ TEST_CASE("a video that is given up leaves nothing behind", "[picture]") {
         PictureWriter writer(scratch.path("out/a.mp4"), 30);
         writer.write(plain(7, 5), 0);
     }
+    CHECK(filesIn(scratch.path("out")) == 0);
+}
+
+TEST_CASE("an ffmpeg's word is not taken for what it wrote", "[picture]") {
+    const Scratch scratch;
+    const Path path(scratch.path("bin") + ":/usr/bin:/bin");
+    const std::string file = scratch.write("out/a.mp4", "old");
+    const auto told = [&](const std::string& script) {
+        writeScript(scratch, script);
+        return messageOf([&] {
+            VideoWriter writer(file, 7, 5, 30, 0.3);
+            for (int i = 0; i < 3; ++i)
+                writer.write(plain(7, 5));
+            writer.finish();
+        });
+    };
+    CHECK(told(keeper).empty());
+    CHECK(std::filesystem::file_size(file) == 3 * 7 * 5 * 4);
+    scratch.write("out/a.mp4", "old");
+    CHECK(told("cat > /dev/null\n").find("wrote a video of 0 pictures, expected 3") != std::string::npos);
+    CHECK(told(std::string("for last; do :; done\n[ \"$last\" = pipe:1 ] || { head -c 280 > "
+                           "\"$last\"; cat > /dev/null; exit; }\n") +
+               keeper)
+              .find("wrote a video of 2 pictures, expected 3") != std::string::npos);
+    CHECK(told("cat > /dev/null\nexec sleep 600\n").find("has written nothing for 0.3 s and was ended") !=
+          std::string::npos);
+    CHECK(told("for last; do :; done\n[ \"$last\" = pipe:1 ] || { cat > \"$last\"; exit; }\nexec sleep 600\n")
+              .find("has written nothing for 0.3 s") != std::string::npos);
+    CHECK(readFile(file) == "old");
+    CHECK(filesIn(scratch.path("out")) == 1);
+}
+
+TEST_CASE("an ffmpeg that takes no picture is not waited for", "[picture]") {
+    const Scratch scratch;
+    const Path path(scratch.path("bin") + ":/usr/bin:/bin");
+    std::filesystem::create_directory(scratch.path("out"));
+    writeScript(scratch, "exec sleep 600\n");
+    const std::string message = messageOf([&] {
+        VideoWriter writer(scratch.path("out/a.mp4"), 256, 256, 30, 0.3);
+        for (int i = 0; i < 50; ++i)
+            writer.write(plain(256, 256));  // more than a pipe holds
+    });
+    CHECK(message.find("ffmpeg has taken nothing for 0.3 s and was ended") != std::string::npos);
     CHECK(filesIn(scratch.path("out")) == 0);
 }
