@@ -92,9 +92,7 @@ CLI::Option* addNumber(
 // Adds one whose value is the name of a file.
 template <typename T>
 CLI::Option* addFile(CLI::App& command, const char* name, T& value, const std::string& what) {
-    return command.add_option(name, value, what)
-        ->check([](const std::string& file) { return file.empty() ? "expected the name of a file" : ""; })
-        ->type_name("FILE");
+    return command.add_option(name, value, what)->type_name("FILE");
 }
 // Calls read(text), and tells its Error as one of the option.
 template <typename Read>

@@ -35,15 +35,11 @@ struct Report {
 
 // Before any work is done for nothing.
 void checkOutput(const MoleculeOptions& options) {
-    if (!options.report.empty() && lowerExtension(options.report) != ".html")
-        throw Error(Location{options.report, 0, 0, {}}, "expected a name ending in .html for the report");
     if (options.output.empty()) return;
     const Location where{options.output, 0, 0, {}};
     std::error_code code;
     if (fs::is_directory(options.output, code))
         throw Error(where, "is a folder, expected the name of a file");
-    if (lowerExtension(options.output) != ".json")
-        throw Error(where, "expected a name ending in .json for the molecule file");
     if (fs::exists(options.output, code) && !options.force)
         throw Error(where, "is there already: give --force to write over it");
 }
@@ -91,13 +87,14 @@ double round3(double value) {
 Trial write(const Options& options, MadeMolecule& made) {
     const std::string& file = options.molecule.output;
     const std::string text = writeMolecule(made.molecule);
-    made.molecule = parseMolecule(text, file);
     Trial trial;
     try {
+        made.molecule = parseMolecule(text, {});  // of no file yet
         trial = tryOut(made.molecule, options);
     } catch (const Error& error) {
         throw Error(Location{file, 0, 0, {}},
-                    "is not written, because the molecule does not run: ", error.message());
+                    "is not written, because the molecule does not run: ", error.message(),
+                    error.location().path.empty() ? "" : concat(" (at ", error.location().path, ")"));
     }
     writeImage(options.molecule, made);
     writeFile(file, made.image ? writeMolecule(made.molecule) : text);

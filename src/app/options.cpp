@@ -156,6 +156,46 @@ std::vector<std::string> optionNames(CLI::App& command) {
     return names;
 }
 
+// Stands for the nothing of "--save=", which CLI11 drops to take the next word in its place.
+constexpr const char* nothing = "--";
+
+// Every option of a command and of those below it is written the same way: one that takes a value takes one
+// each time, so that it leaves the words behind it alone; neither nothing nor another option is a value; and
+// one that takes none takes none behind an "=" either.
+void holdToOneValue(CLI::App& command) {
+    const CLI::Validator aValue(
+        [](const std::string& text) {
+            if (text.empty() || text == nothing) return std::string("expected a value, found nothing");
+            if (text.rfind("--", 0) == 0)
+                return concat("expected a value, found the option ", text, " (a file of that name is ./",
+                              text, ")");
+            return std::string();
+        },
+        "");
+    for (CLI::Option* option : command.get_options()) {
+        if (option->get_items_expected_max() == 0) {
+            option->disable_flag_override();
+            continue;
+        }
+        option->check(aValue);
+        if (option->nonpositional()) option->allow_extra_args(false);
+    }
+    for (CLI::App* below : command.get_subcommands([](CLI::App*) { return true; }))
+        holdToOneValue(*below);
+}
+
+// The words of the command line, the last first, as CLI11 takes them.
+std::vector<std::string> wordsBackwards(int argc, char** argv) {
+    std::vector<std::string> out;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool ofNothing = word.rfind("--", 0) == 0 && word.find('=') == word.size() - 1;
+        out.push_back(ofNothing ? word + nothing : word);
+    }
+    std::reverse(out.begin(), out.end());
+    return out;
+}
+
 std::string explainExtras(CLI::App& app, int argc, char** argv) {
     CLI::App* command = &app;
     while (!command->get_subcommands().empty())
@@ -203,9 +243,12 @@ void checkTogether(const Options& options) {
 }
 
 void readSize(const std::string& text, Options& options) {
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 ||
-        options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
+    const size_t cross = text.find('x');
+    const auto side = [](const std::string& digits, int& value) {
+        return isAll(digits, value) && value >= 1 && value <= 16384;
+    };
+    if (cross == std::string::npos || !side(text.substr(0, cross), options.width) ||
+        !side(text.substr(cross + 1), options.height))
         throw Error(concat("expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
 }
 
@@ -306,9 +349,16 @@ static void declare(CLI::App& app, Options& options) {
                               })
             ->group("");
     };
+    holdToOneValue(app);
     document("--man-page", manPage);
     document("--bash-completion", bashCompletion);
     document("--markdown", markdown);
+}
+
+// CLI11's words for "--json=5" without the dashes of the name; empty: it says something else.
+static std::string takesNoValue(const std::string& message) {
+    const size_t end = message.find(" was given a disallowed flag override");
+    return end == std::string::npos ? "" : "--" + message.substr(0, end) + ": takes no value";
 }
 
 // The command that the words on the command line have come to.
@@ -348,12 +398,15 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App app("Shoal: very many small mass-spring meshes, simulated and drawn on the GPU", "shoal");
     declare(app, options);
     try {
-        app.parse(argc, argv);
+        app.parse(wordsBackwards(argc, argv));
     } catch (const CLI::Success& success) {
         app.exit(success);
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        std::string message = explainExtras(app, argc, argv);
+        // What an option takes is told first, since that error names it.
+        const bool namesOption = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr ||
+                                 dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr;
+        std::string message = namesOption ? takesNoValue(error.what()) : explainExtras(app, argc, argv);
         if (message.empty()) message = error.what();
         throw WrongUse(message + "; see " + nameOf(reached(app)) + " --help");
     }

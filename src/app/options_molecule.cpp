@@ -41,7 +41,8 @@ void addMaking(CLI::App& command, Options& options) {
     });
     command.add_flag("--json", options.json, "Report as JSON on standard output");
     addFile(command, "--report", molecule.report,
-            "Page to write (.html): the molecule, its motions, warnings");
+            "Page to write (.html): the molecule, its motions, warnings")
+        ->check(endsIn({".html"}));
 }
 
 void addFromMesh(CLI::App& command, Options& options) {
@@ -50,7 +51,8 @@ void addFromMesh(CLI::App& command, Options& options) {
     addFile(command, "mesh", options.files, "Mesh as OBJ, or of any format that Assimp reads")
         ->required()
         ->expected(1);
-    addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
+    addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written")
+        ->check(endsIn({".json"}));
     addWhole(command, "--vertices", make.vertices,
              "At most so many are simulated (default 24, of a cage 40)");
     addWhole(command, "--rings", make.rings,
@@ -82,7 +84,10 @@ void addFromMesh(CLI::App& command, Options& options) {
 
 void addNew(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
-    addFile(command, "molecule", options.files, "Molecule file to write (.json)")->required()->expected(1);
+    addFile(command, "molecule", options.files, "Molecule file to write (.json)")
+        ->required()
+        ->expected(1)
+        ->check(endsIn({".json"}));
     command.add_option("--shape", molecule.shape, "What it begins as")
         ->check(oneOf(shapeNames()))
         ->type_name(joined(shapeNames(), "|"))
@@ -105,14 +110,24 @@ void finishShow(Options& options, bool sized) {
                            options.width, "x", options.height));
 }
 
-void finishMaking(MoleculeOptions& molecule, const std::string& file, const char* command) {
+// Errors of checkOptions() begin with the option's name.
+void finishMaking(MoleculeOptions& molecule, const std::string& file) {
     FromMesh& make = molecule.fromMesh;
     if (make.name.empty())
         make.name = std::filesystem::path(molecule.output.empty() ? file : molecule.output).stem().string();
     try {
         checkOptions(make);
     } catch (const Error& error) {
-        throw Error(concat(command, ": ", error.message()));
+        throw Error(concat("--", error.message()));
+    }
+}
+
+void finishShape(const MoleculeOptions& molecule) {
+    const Shape& shape = shapeNamed(molecule.shape);
+    try {
+        checkDivisions(shape, molecule.divisions.value_or(shape.divisions));
+    } catch (const Error& error) {
+        throw Error(concat("--divisions: ", error.message()));
     }
 }
 
@@ -133,12 +148,13 @@ void finishMolecule(const CLI::App& app, Options& options) {
     if (!molecule->parsed()) return;
     if (molecule->get_subcommand("from-mesh")->parsed()) {
         options.command = moleculeFromMeshCommand;
-        finishMaking(options.molecule, options.files.front(), "molecule from-mesh");
+        finishMaking(options.molecule, options.files.front());
     }
     if (molecule->get_subcommand("new")->parsed()) {
         options.command = moleculeNewCommand;
         options.molecule.output = options.files.front();
-        finishMaking(options.molecule, options.files.front(), "molecule new");
+        finishMaking(options.molecule, options.files.front());
+        finishShape(options.molecule);
     }
     if (molecule->get_subcommand("show")->parsed()) {
         options.command = moleculeShowCommand;

@@ -14,6 +14,7 @@
 #include "geometry/close_holes.h"
 #include "geometry/doubled_walls.h"
 #include "geometry/subdivide.h"
+#include "molecule/molecule_file.h"
 #include "molecule/skin.h"
 
 namespace shoal {
@@ -302,7 +303,7 @@ class Maker {
         const size_t few = mesh_.weldedPositions.size(), wanted = size_t(wantedVertices());
         if (made_.solid || options_.rings || !ofSurface || 2 * few > wanted) return;
         constexpr size_t skinVertices = 4;  // for each that is simulated, so that the skin bends smoothly
-        subdivide(mesh_, skinVertices * wanted);
+        subdivide(mesh_, skinVertices * wanted, size_t(maxSkinTriangles));
         shape_ = withoutDoubledWalls(mesh_);
         made_.notes.push_back(concat(
             "the sheet has ", few, " vertices, too few to bend: its longest edges were halved until it had ",
@@ -518,30 +519,37 @@ void checkOptions(const FromMesh& o) {
     const auto above = [](const char* what, const std::optional<double>& value, double most,
                           const char* unit) {
         if (value && !(*value > 0 && *value <= most))
-            throw Error("expected a ", what, " above 0, at most ", most, unit, ", found ", *value);
+            throw Error(what, ": expected a number above 0, at most ", most, unit, ", found ", *value);
     };
     above("size", o.size, 1e5, " m");
     above("mass", o.mass, 1e9, " kg");
     above("density", o.density, 1e5, " kg/m^3");
     above("frequency", o.frequency, 1e5, " Hz");
     if (o.damping && !(*o.damping >= 0 && *o.damping <= 2))
-        throw Error("expected a damping ratio from 0 to 2, found ", *o.damping);
-    if (!o.material.empty()) scaledMaterial(o.material);
-    if (o.mass && o.density) throw Error("expected either a mass or a density, found both");
-    const int asked = o.rings ? 4 * *o.rings : o.vertices.value_or(usualMadeVertices);
+        throw Error("damping: expected a ratio from 0 to 2, found ", *o.damping);
+    if (!o.material.empty()) {
+        try {
+            scaledMaterial(o.material);
+        } catch (const Error& error) {
+            throw Error("material: ", error.message());
+        }
+    }
+    if (o.mass && o.density) throw Error("mass: expected either a mass or a density, found both");
+    const int64_t asked = o.rings ? 4 * int64_t(*o.rings) : o.vertices.value_or(usualMadeVertices);
     if (o.skinTriangles && *o.skinTriangles < 4)
-        throw Error("expected at least 4 triangles of the skin, found ", *o.skinTriangles);
+        throw Error("skin-triangles: expected at least 4, found ", *o.skinTriangles);
     if (o.skinTriangles && !o.skin)
-        throw Error("expected either triangles of the skin or no skin, found both");
-    if (o.rings && *o.rings < 2) throw Error("expected at least 2 rings, found ", *o.rings);
+        throw Error("skin-triangles: expected either triangles of the skin or no skin, found both");
+    if (o.rings && *o.rings < 2) throw Error("rings: expected at least 2, found ", *o.rings);
     if (!o.rings && asked < leastMadeVertices)
-        throw Error("expected at least ", leastMadeVertices, " vertices, found ", asked);
+        throw Error("vertices: expected at least ", leastMadeVertices, ", found ", asked);
     if (asked > mostMadeVertices)
-        throw Error("a molecule of ", asked, " vertices takes too long to make: at most ", mostMadeVertices,
+        throw Error(o.rings ? "rings" : "vertices", ": a molecule of ", asked,
+                    " vertices takes too long to make: at most ", mostMadeVertices,
                     o.rings ? concat(", which are ", mostMadeVertices / 4, " rings") : "");
     if (o.rings && (o.springs == FromMesh::Springs::lattice || o.springs == FromMesh::Springs::cage))
-        throw Error("expected either rings or a ", o.springs == FromMesh::Springs::cage ? "cage" : "lattice",
-                    ", found both");
+        throw Error("rings: expected either rings or a ",
+                    o.springs == FromMesh::Springs::cage ? "cage" : "lattice", ", found both");
 }
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {

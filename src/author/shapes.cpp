@@ -159,9 +159,13 @@ const Shape& shapeNamed(std::string_view name) {
     throw Error(concat("unknown shape \"", name, "\"", suggestion(std::string(name), shapeNames())));
 }
 
-Mesh shapeMesh(const Shape& shape, int divisions) {
+void checkDivisions(const Shape& shape, int divisions) {
     if (divisions < 1 || divisions > shape.mostDivisions)
         throw Error("a ", shape.name, " takes 1 to ", shape.mostDivisions, " divisions, found ", divisions);
+}
+
+Mesh shapeMesh(const Shape& shape, int divisions) {
+    checkDivisions(shape, divisions);
     Mesh mesh = makers[size_t(&shape - shapes().data())](divisions);
     mesh.objects = {{shape.name, 0, int(mesh.triangles.size())}};
     completeMesh(mesh);

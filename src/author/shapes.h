@@ -23,8 +23,10 @@ std::vector<std::string> shapeNames();
 // Error: unknown, with the nearest.
 const Shape& shapeNamed(std::string_view name);
 
-// Returns a mesh about the origin whose longest side is 1 m, with texture coordinates. `divisions`: of that
-// side, 1 to the shape's most. Error: others.
+// Error: the shape's longest side is not divided so; it takes 1 to its most.
+void checkDivisions(const Shape& shape, int divisions);
+// Returns a mesh about the origin whose longest side is 1 m, with texture coordinates. Error:
+// checkDivisions's.
 Mesh shapeMesh(const Shape& shape, int divisions);
 // What else to ask of makeMolecule() for the shape's mesh: all of its vertices, no skin, and where nothing is
 // said a size of 0.2 m and its material.

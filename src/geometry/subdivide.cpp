@@ -16,17 +16,20 @@ class Subdivision {
         for (size_t t = 0; t < mesh.triangles.size(); ++t) {
             triangles_.push_back(mesh.triangles[t]);
             sources_.push_back(t);
+            changes_.push_back(0);
             addEdges(t);
         }
     }
 
-    bool mayGoOn() const { return !edges_.empty(); }
+    bool mayGoOn(size_t mostTriangles) const {
+        return !edges_.empty() && triangles_.size() + longest()->second.count <= mostTriangles;
+    }
     void halveLongest() {
-        const auto longest = std::max_element(
-            edges_.begin(), edges_.end(),
-            [&](const auto& a, const auto& b) { return lengthOf(a.first) < lengthOf(b.first); });
-        const Edge edge = longest->first;
-        const std::vector<size_t> sides = longest->second;
+        const auto entry = longest();
+        const Edge edge = entry->first;
+        std::vector<size_t> sides;
+        for (const Side& side : entry->second.sides)
+            if (side.change == changes_[side.triangle]) sides.push_back(side.triangle);
         halves_.clear();
         welded_ = int(mesh_.weldedPositions.size());
         mesh_.weldedPositions.push_back(
@@ -60,6 +63,23 @@ class Subdivision {
     }
 
   private:
+    // A triangle that has an edge, unless it has changed since.
+    struct Side {
+        size_t triangle;
+        int change;
+    };
+    // What has changed stays in the list, so that a triangle leaves an edge of many in no time.
+    struct Sides {
+        std::vector<Side> sides;
+        size_t count = 0;  // of those that have not
+    };
+    using Edges = std::map<Edge, Sides>;
+
+    Edges::const_iterator longest() const {
+        return std::max_element(edges_.begin(), edges_.end(), [&](const auto& a, const auto& b) {
+            return lengthOf(a.first) < lengthOf(b.first);
+        });
+    }
     int weldOf(int corner) const { return mesh_.weld[size_t(corner)]; }
     double lengthOf(const Edge& edge) const {
         return glm::distance(mesh_.weldedPositions[size_t(edge.first)],
@@ -75,15 +95,18 @@ class Subdivision {
         return a == b || b == c || c == a;
     }
     void addEdges(size_t t) {
-        for (int side = 0; side < 3 && !degenerate(t); ++side)
-            edges_[edgeOf(triangles_[t], side)].push_back(t);
+        for (int side = 0; side < 3 && !degenerate(t); ++side) {
+            Sides& edge = edges_[edgeOf(triangles_[t], side)];
+            edge.sides.push_back({t, changes_[t]});
+            ++edge.count;
+        }
     }
     void removeEdges(size_t t) {
         for (int side = 0; side < 3; ++side) {
             const auto found = edges_.find(edgeOf(triangles_[t], side));
-            std::erase(found->second, t);
-            if (found->second.empty()) edges_.erase(found);
+            if (--found->second.count == 0) edges_.erase(found);
         }
+        ++changes_[t];
     }
 
     // A corner in the middle of two, which are the edge's: each pair of corners has its own.
@@ -114,6 +137,7 @@ class Subdivision {
         triangles_[t] = {a, m, c};
         triangles_.push_back({m, b, c});
         sources_.push_back(sources_[t]);
+        changes_.push_back(0);
         addEdges(t);
         addEdges(triangles_.size() - 1);
     }
@@ -121,17 +145,18 @@ class Subdivision {
     Mesh& mesh_;
     std::vector<glm::ivec3> triangles_;
     std::vector<size_t> sources_;  // of each: the triangle that it came from
-    std::map<Edge, std::vector<size_t>> edges_;
+    std::vector<int> changes_;     // of each: how often it was halved
+    Edges edges_;
     std::map<std::pair<int, int>, int> halves_;  // of the edge that is being halved
     int welded_ = 0;                             // its middle
 };
 
 }  // namespace
 
-void subdivide(Mesh& mesh, size_t weldedVertices) {
+void subdivide(Mesh& mesh, size_t weldedVertices, size_t mostTriangles) {
     if (mesh.triangles.empty() || mesh.weldedPositions.size() >= weldedVertices) return;
     Subdivision subdivision(mesh);
-    while (subdivision.mayGoOn() && mesh.weldedPositions.size() < weldedVertices)
+    while (subdivision.mayGoOn(mostTriangles) && mesh.weldedPositions.size() < weldedVertices)
         subdivision.halveLongest();
     subdivision.finish();
     completeMesh(mesh);

@@ -1,7 +1,11 @@
 // Tests what the command says about itself, and about words that it does not know.
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 
 #include "cli/shoal_command.h"
+#include "core/parallel.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 
@@ -162,4 +166,120 @@ TEST_CASE("a context that cannot be had says what helps", "[cli]") {
     const Outcome other = runShoal({"run", squaresScene(), "--headless", "--frames", "1", "--json"}, noEgl);
     REQUIRE(other.code == 0);
     CHECK(member(member(other.json(), "context"), "kind").text == "osmesa");
+}
+
+namespace {
+
+// An option as the tables of `shoal --markdown` have it.
+struct Option {
+    Words command;     // "molecule", "new"
+    std::string name;  // "--size"
+    std::string type;  // "INT", "FLOAT", "a|b", "FILE" …; empty: it takes no value
+};
+
+std::vector<Option> allOptions() {
+    std::vector<Option> out;
+    Words command;
+    std::istringstream lines(runShoal({"--markdown"}).out);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind("## shoal ", 0) == 0) {
+            std::istringstream words(line.substr(9));
+            command = Words(std::istream_iterator<std::string>(words), {});
+        }
+        if (line.rfind("| `-", 0) != 0) continue;
+        std::istringstream cell(line.substr(3, line.find("` |") - 3));
+        Option option{command, "", ""};
+        cell >> option.name >> option.type;
+        option.name = option.name.substr(option.name.rfind(',') + 1);
+        out.push_back(option);
+    }
+    return out;
+}
+
+// A command line that never comes to run anything: its file is not there, or is there already; or its last
+// word is unknown, which is told after what is wrong with an option's value.
+Words idle(const Option& option, const std::string& there) {
+    Words out = option.command;
+    const std::string last = out.back();
+    if (last == "new")
+        out.push_back(there);
+    else if (last == "info" || last == "bench" || last == "edit")
+        out.push_back("--no-such");
+    else
+        out.push_back("nowhere.obj");
+    return out;
+}
+
+// Whether it was taken, and the command then told what else is wrong.
+bool isTaken(const Outcome& outcome) {
+    for (const char* later : {"no such file", "nowhere.obj", "is there already", "unknown option --no-such",
+                              "say what to write", "requires", "is required"})
+        if (outcome.err.find(later) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("every option of every command takes what it can use, and names itself when it cannot", "[cli]") {
+    const Scratch scratch;
+    const std::string there = scratch.write("there.json", "{}");
+    const std::vector<Option> options = allOptions();
+    REQUIRE(options.size() > 150);
+    struct Try {
+        const Option* option;
+        std::string value;
+        bool refused;  // whatever the option is for, this is no value of it
+        Outcome outcome = {};
+    };
+    std::vector<Try> tries;
+    for (const Option& option : options) {
+        const bool flag = option.type.empty(), word = option.type.find('|') != std::string::npos;
+        const bool whole = option.type == "INT" || option.type == "UINT";
+        tries.push_back({&option, "", true});
+        tries.push_back({&option, "5", flag || word});
+        if (flag) continue;
+        tries.push_back({&option, "--json", true});
+        tries.push_back({&option, "x1", word || whole || option.type == "FLOAT" || option.type == "WxH"});
+        if (word) continue;
+        tries.push_back({&option, "1e999", whole || option.type == "FLOAT"});
+        tries.push_back({&option, "4294967297x1", whole || option.type == "WxH"});
+        if (option.type == "FILE" || option.type == "TEXT") continue;
+        tries.push_back({&option, "99999999999999999999", whole});
+        tries.push_back({&option, "-1", false});
+        tries.push_back({&option, "0", option.name == "--divisions" || option.name == "--frames"});
+    }
+    parallel(int(tries.size()), 4, [&](int i) {
+        Try& one = tries[size_t(i)];
+        Words words = idle(*one.option, there);
+        words.push_back(concat(one.option->name, "=", one.value));
+        one.outcome = runShoal(words, {.folder = scratch.folder().string()});
+    });
+    for (const Try& one : tries) {
+        std::string command;
+        for (const std::string& word : one.option->command)
+            command += word + " ";
+        INFO("shoal " << command << one.option->name << "=" << one.value << "\n" << one.outcome.err);
+        CHECK(one.outcome.messages().size() == 1);
+        CHECK(one.outcome.out.empty());
+        const bool named = one.outcome.err.find(one.option->name) != std::string::npos;
+        if (one.refused || !isTaken(one.outcome)) CHECK((named && one.outcome.code == 2));
+    }
+    CHECK(filesIn(scratch.folder().string()) == Words{"there.json"});
+}
+
+TEST_CASE("an option of several values leaves the words behind it alone", "[cli]") {
+    const Scratch scratch;
+    const Surroundings there{.folder = scratch.folder().string()};
+    for (const Words& words :
+         {Words{"molecule", "from-mesh", "--pin-name", "red", "nowhere.obj"},
+          Words{"molecule", "from-mesh", "--pin", "y<0.1", "--pin", "y>0.9", "nowhere.obj"},
+          Words{"run", "--save", "s.shoal", "--save-frames", "1,2", "nowhere.obj"},
+          Words{"measure", "--solvers", "euler,leapfrog", "nowhere.obj"}})
+        CHECK_THAT(runShoal(words, there).err, Catch::Contains("nowhere.obj"));
+    refusal({"run", squaresScene(), "--save", "--headless"},
+            "--save: expected a value, found the option --headless", there);
+    refusal({"run", squaresScene(), "--save=", "--headless"}, "--save: expected a value, found nothing",
+            there);
+    refusal({"explain", ""}, "scene: expected a value, found nothing", there);
+    CHECK(filesIn(scratch.folder().string()).empty());
 }

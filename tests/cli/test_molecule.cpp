@@ -152,6 +152,10 @@ TEST_CASE("molecule from-mesh: runs what it writes, and writes nothing that does
     const std::string stiff = scratch.path("stiff.json");
     refusal({"molecule", "from-mesh", minnow, "-o", stiff, "--vertices", "160", "--frequency", "30000"},
             "is not written, because the molecule does not run: ");
+    // Nothing is wrong with a line of a file that was never there.
+    const std::string light = refusal({"molecule", "new", stiff, "--mass", "1e-30"},
+                                      "is not written, because the molecule does not run: expected a number");
+    CHECK_THAT(light, Catch::Contains("(at $.defaults.stiffness)") && !Catch::Contains(".json:"));
     refusal({"molecule", "from-mesh", minnow, "--report", scratch.path("page.txt")}, "ending in .html");
     refusal({"molecule", "from-mesh", minnow, "--pin-near", "1,2"}, "--pin-near: expected a point");
     CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"fish.html", "fish.json"});
@@ -170,7 +174,7 @@ TEST_CASE("molecule from-mesh: leaves files alone", "[cli][molecule]") {
     refusal({"molecule", "from-mesh", minnow, "-o", full}, "full.json", {.largestFile = 5000});
     CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"there.json"});
     refusal({"molecule", "from-mesh", minnow, "-o", "/proc/nothing/out.json"}, "/proc/nothing");
-    refusal({"molecule", "from-mesh", minnow, "-o", scratch.folder().string()}, "is a folder");
+    refusal({"molecule", "from-mesh", minnow, "-o", scratch.folder().string()}, "ending in .json");
     refusal({"molecule", "from-mesh", minnow, "-o", scratch.path("out.obj")}, "ending in .json");
     const Outcome shown = runShoal({"molecule", "from-mesh", minnow});
     CHECK(shown.code == 0);
@@ -193,9 +197,9 @@ TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
     refuses({open, "--springs", "latice"}, "did you mean \"lattice\"");
     refuses({open, "--vertices", "1000"}, "takes too long to make: at most 227");
     refuses({open, "--vertices", "many"}, "expected a whole number");
-    refuses({open, "--vertices", "-4"}, "expected at least 4 vertices, found -4");
-    refuses({open, "--size", "0"}, "expected a size above 0");
-    refuses({open, "--size", "nan"}, "expected a size above 0");
+    refuses({open, "--vertices", "-4"}, "--vertices: expected at least 4, found -4");
+    refuses({open, "--size", "0"}, "--size: expected a number above 0");
+    refuses({open, "--size", "nan"}, "--size: expected a number above 0");
     refuses({open, "--mass", "heavy"}, "expected a number");
     refuses({open, "--material", "leef"}, "did you mean \"leaf\"");
     refuses({open, "--pin", "y=1"}, "--pin: expected a rule such as y<0.1");

@@ -402,10 +402,12 @@ TEST_CASE("what makes no molecule is refused with its reason", "[from-mesh]") {
           std::string::npos);
     CHECK(with([](FromMesh& o) { o.rings = 57; }).find("at most 227, which are 56 rings") !=
           std::string::npos);
-    CHECK(with([](FromMesh& o) { o.vertices = 3; }) == "expected at least 4 vertices, found 3");
-    CHECK(with([](FromMesh& o) { o.rings = 1; }) == "expected at least 2 rings, found 1");
-    CHECK(with([](FromMesh& o) { o.size = -1; }).find("expected a size above 0") != std::string::npos);
-    CHECK(with([](FromMesh& o) { o.damping = 5; }).find("damping ratio from 0 to 2") != std::string::npos);
+    CHECK(with([](FromMesh& o) { o.vertices = 3; }) == "vertices: expected at least 4, found 3");
+    CHECK(with([](FromMesh& o) { o.rings = 1; }) == "rings: expected at least 2, found 1");
+    CHECK(with([](FromMesh& o) { o.size = -1; }).find("size: expected a number above 0") !=
+          std::string::npos);
+    CHECK(with([](FromMesh& o) { o.damping = 5; }).find("damping: expected a ratio from 0 to 2") !=
+          std::string::npos);
     CHECK(with([](FromMesh& o) { o.material = "flush"; }).find("did you mean \"flesh\"") !=
           std::string::npos);
     CHECK(with([](FromMesh& o) { o.mass = o.density = 1; }).find("either") != std::string::npos);

@@ -1,5 +1,8 @@
 // Meshes with more vertices keep their shape and what their vertices and parts carry.
 #include "geometry/subdivide.h"
+
+#include <chrono>
+
 #include "support/catch.h"
 
 using namespace shoal;
@@ -34,7 +37,7 @@ double areaOf(const Mesh& mesh, const Mesh::Part& part) {
 
 TEST_CASE("halving edges keeps shape, parts and what vertices carry", "[mesh]") {
     Mesh mesh = flags();
-    subdivide(mesh, 50);
+    subdivide(mesh, 50, 1000);
     CHECK(mesh.weldedPositions.size() == 50);
     CHECK(mesh.triangles.size() > 50);
     REQUIRE(mesh.parts.size() == 2);
@@ -63,12 +66,35 @@ TEST_CASE("halving edges keeps shape, parts and what vertices carry", "[mesh]") 
 
 TEST_CASE("what has enough vertices, or no area, stays as it is", "[mesh]") {
     Mesh mesh = flags();
-    subdivide(mesh, 8);
+    subdivide(mesh, 8, 1000);
     CHECK(mesh.triangles.size() == 4);
     Mesh line;
     line.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}};
     line.triangles = {{0, 1, 2}};
     completeMesh(line);
-    subdivide(line, 10);
+    subdivide(line, 10, 1000);
     CHECK(line.triangles.size() == 1);
+}
+
+TEST_CASE("an edge of very many triangles is halved as fast as as many edges", "[mesh]") {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles.assign(20'000, {0, 1, 2});
+    completeMesh(mesh);
+    Mesh other = mesh;
+    const auto start = std::chrono::steady_clock::now();
+    subdivide(mesh, 12, 10'000'000);
+    // A hundred times as long where each triangle is looked for among the others.
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    CHECK(mesh.weldedPositions.size() == 12);
+    CHECK(mesh.triangles.size() % 20'000 == 0);
+    double area = 0;
+    for (const glm::ivec3& t : mesh.triangles) {
+        const glm::dvec3& a = mesh.positions[size_t(t.x)];
+        area +=
+            0.5 * glm::length(glm::cross(mesh.positions[size_t(t.y)] - a, mesh.positions[size_t(t.z)] - a));
+    }
+    CHECK(area == Approx(10'000));
+    subdivide(other, 12, 30'000);  // the next edge would make 40,000
+    CHECK(other.triangles.size() == 20'000);
 }
