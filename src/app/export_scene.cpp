@@ -95,15 +95,16 @@ class TextureExport {
         makeParts();
     }
 
-    void run() {
+    // False: a signal asked for the end before all frames were there, and nothing is written.
+    bool run() {
         const int frames = options_.frames + options_.loop;
         for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
             if (frame > 0) simulation_.frame();
             simulation_.check();
             add(simulation_.snapshot(index_), frame);
         }
-        if (signalThatAsked()) return;
-        parallel(int(parts_.size()), allThreads(), [&](int i) { write(parts_[size_t(i)]); });
+        if (signalThatAsked()) return false;
+        writeAll();
         for (const Part& part : parts_) {
             sums_.step = std::max(sums_.step, part.step);
             sums_.loopShift = std::max(sums_.loopShift, part.loopShift);
@@ -114,6 +115,7 @@ class TextureExport {
         }
         const GroupPlan& plan = simulation_.plan().groups[index_];
         if (options_.rigid) tellWarnings(warningsOfBending(scene_.groups[plan.index], plan, sums_.worst));
+        return true;
     }
 
     JsonValue report() const {
@@ -278,6 +280,20 @@ class TextureExport {
         part.texture = std::move(texture);
     }
 
+    // Textures without their meshes mean nothing: all files or none.
+    void writeAll() {
+        try {
+            parallel(int(parts_.size()), allThreads(), [&](int i) { write(parts_[size_t(i)]); });
+        } catch (const std::exception&) {
+            std::error_code ignored;
+            for (const Part& part : parts_)
+                for (const std::string& file : part.written)
+                    fs::remove(file, ignored);
+            fs::remove(options_.vat, ignored);  // the folder, if nothing else is in it
+            throw;
+        }
+    }
+
     void write(Part& part) const {
         const fs::path folder = options_.vat;
         const fs::path image = folder / (part.name + "_vat" + ending(options_.format));
@@ -353,6 +369,31 @@ std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan
                     "written")}};
 }
 
+// False: a signal came before there was anything to write.
+static bool exportNow(const Options& options, const Scene& scene, Simulation& simulation) {
+    const ExportOptions& asked = options.animation;
+    for (int frame = 0; frame < asked.first && !signalThatAsked(); ++frame)
+        simulation.frame();
+    if (signalThatAsked()) return false;
+    simulation.check();
+    if (!asked.glb.empty()) {
+        const std::vector<std::byte> bytes = exchange::encodeGlb(meshesNow(simulation, scene), scene.camera);
+        writeFile(asked.glb, std::span<const std::byte>(bytes));
+        if (options.json)
+            std::cout << writeJson(object(key("written", std::vector<std::string>{asked.glb}),
+                                          key("bytes", bytes.size()), key("frame", simulation.frames())));
+        else
+            std::cout << "wrote " << printable(asked.glb) << ", frame " << simulation.frames() << ", "
+                      << bytes.size() << " bytes\n";
+        return true;
+    }
+    if (!asked.usd.empty()) return exportUsd(options, scene, simulation);
+    TextureExport textures(options, scene, simulation);
+    if (!textures.run()) return false;
+    std::cout << (options.json ? writeJson(textures.report()) : textures.text());
+    return true;
+}
+
 int exportCommand(const Options& options) {
     const ExportOptions& asked = options.animation;
     if (!asked.glb.empty()) checkWritable(asked.glb);
@@ -364,29 +405,10 @@ int exportCommand(const Options& options) {
     simulationOptions.lanes = options.lanes;
     simulationOptions.drawn = false;
     Simulation simulation(context, std::move(loaded.plan), simulationOptions);
-    for (int frame = 0; frame < asked.first && !signalThatAsked(); ++frame)
-        simulation.frame();
-    if (signalThatAsked()) return 0;
-    simulation.check();
-    if (!asked.glb.empty()) {
-        const std::vector<std::byte> bytes =
-            exchange::encodeGlb(meshesNow(simulation, loaded.scene), loaded.scene.camera);
-        writeFile(asked.glb, std::span<const std::byte>(bytes));
-        if (options.json)
-            std::cout << writeJson(object(key("written", std::vector<std::string>{asked.glb}),
-                                          key("bytes", bytes.size()), key("frame", simulation.frames())));
-        else
-            std::cout << "wrote " << printable(asked.glb) << ", frame " << simulation.frames() << ", "
-                      << bytes.size() << " bytes\n";
-        return 0;
-    }
-    if (!asked.usd.empty()) {
-        exportUsd(options, loaded.scene, simulation);
-        return 0;
-    }
-    TextureExport textures(options, loaded.scene, simulation);
-    textures.run();
-    std::cout << (options.json ? writeJson(textures.report()) : textures.text());
+    const FinishesOnSignal finishes;
+    if (exportNow(options, loaded.scene, simulation)) return 0;
+    std::cerr << "shoal: " << stoppedBySignal() << " after frame " << simulation.frames()
+              << "; nothing is written\n";
     return 0;
 }
 

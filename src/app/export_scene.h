@@ -30,7 +30,8 @@ inline std::vector<exchange::MoleculeState> livingIn(const Snapshot& state) {
 // Warns where --rigid leaves vertices off (m) by more than a twentieth of a molecule's size.
 std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan, double residual);
 
-// Runs the simulation for --frames and writes all that is drawn as USD (export_usd.cpp); says what.
-void exportUsd(const Options& options, const Scene& scene, Simulation& simulation);
+// Runs the simulation for --frames, or until a signal asks for the end, and writes all that is drawn as USD
+// (export_usd.cpp); says what. False: the signal came before the first frame, and nothing is written.
+bool exportUsd(const Options& options, const Scene& scene, Simulation& simulation);
 
 }  // namespace shoal::app

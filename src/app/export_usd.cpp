@@ -77,9 +77,6 @@ class UsdGroup {
           changes_(plan_->needs.life),
           residual_(rigidity.residual) {
         const bool rigid = rigidity.asInstances && !mesh_.points();
-        if (rigid && changes_)
-            throw Error("group \"", mesh_.name(),
-                        "\" has births or deaths: --rigid needs molecules that live throughout");
         UsdMoving how;
         how.changes = changes_;
         how.looksChange = changes_ || mesh_.looksChange();
@@ -202,6 +199,11 @@ void eachFrame(Simulation& simulation, int frames, const auto& look) {
 std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
     const std::vector<GroupPlan>& plans = simulation.plan().groups;
     std::vector<Rigidity> out(plans.size(), {.asInstances = asked.rigid});
+    for (const GroupPlan& plan : plans)
+        if (asked.rigid && plan.needs.life &&
+            !GroupMesh(scene.groups[plan.index], plan.constants.seeds).points())
+            throw Error("group \"", plan.name,
+                        "\" has births or deaths: --rigid needs molecules that live throughout");
     if (!asked.rigidWithin) return out;
     std::vector<std::optional<GroupMesh>> meshes(plans.size());
     std::vector<std::optional<RigidFit>> fits(plans.size());
@@ -223,45 +225,51 @@ std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene
 
 }  // namespace
 
-void exportUsd(const Options& options, const Scene& scene, Simulation& simulation) {
+bool exportUsd(const Options& options, const Scene& scene, Simulation& simulation) {
     const ExportOptions& asked = options.animation;
     UsdStage stage(asked.usd, scene.frameRate);
+    const std::vector<Rigidity> rigid = rigidGroups(asked, scene, simulation);  // or refused, before any file
     for (const Model& model : scene.models)
         if (model.draw && !model.mesh.triangles.empty()) stage.add(exchange::modelMesh(model));
     stage.add(scene.camera);
     std::vector<UsdCollider> colliders;
     for (const Collider& collider : scene.colliders)
         colliders.emplace_back(stage, scene, collider, simulation.time());
-    const std::vector<Rigidity> rigid = rigidGroups(asked, scene, simulation);
     std::vector<UsdGroup> groups;
     for (size_t g = 0; g < rigid.size(); ++g)
         if (simulation.plan().groups[g].count > 0) groups.emplace_back(stage, scene, simulation, g, rigid[g]);
+    int frames = 0;  // that are written
     eachFrame(simulation, asked.frames, [&](int frame) {
         for (UsdGroup& group : groups)
             group.sample(stage, simulation, frame);
         for (UsdCollider& collider : colliders)
             collider.sample(stage, frame, simulation.time());
         stage.endFrame(frame);
+        ++frames;
     });
+    if (frames == 0) return false;
     stage.finish();
     for (const UsdGroup& group : groups)
         tellWarnings(group.warnings(scene));
+    if (signalThatAsked())
+        std::cerr << "shoal: " << stoppedBySignal() << " after frame " << frames << " of " << asked.frames
+                  << "; " << printable(stage.written().back()) << " ends there\n";
     const std::vector<std::string>& written = stage.written();
     if (options.json) {
         JsonValue residuals = JsonValue::makeObject();
         for (const UsdGroup& group : groups)
             if (group.fit()) residuals.members.push_back(key(group.name().c_str(), group.fit()->worst()));
         std::cout << writeJson(
-            object(key("frames", asked.frames), key("rigidResidual", residuals), key("written", written)));
-        return;
+            object(key("frames", frames), key("rigidResidual", residuals), key("written", written)));
+        return true;
     }
     for (const UsdGroup& group : groups)
         if (asked.rigid || asked.rigidWithin) std::cout << group.rigiditySentence() << "\n";
-    std::cout << "wrote " << printable(written.back()) << ", "
-              << many(int64_t(asked.frames), "frame", "frames");
+    std::cout << "wrote " << printable(written.back()) << ", " << many(int64_t(frames), "frame", "frames");
     if (written.size() > 1)
         std::cout << ", and " << many(int64_t(written.size() - 1), "other file", "other files");
     std::cout << "\n";
+    return true;
 }
 
 }  // namespace shoal::app

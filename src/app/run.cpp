@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -208,10 +207,9 @@ class HeadlessRun {
                   << " others: a smaller radius, or molecules that start further apart, touch fewer\n";
     }
     void tellStopped() {
-        const int signal = signalThatAsked();
-        if (!signal) return;
-        std::cerr << "shoal: stopped by signal " << signal << " (" << ::strsignal(signal) << ") after frame "
-                  << simulation_.frames() << " of " << last_;
+        if (!signalThatAsked()) return;
+        std::cerr << "shoal: " << stoppedBySignal() << " after frame " << simulation_.frames() << " of "
+                  << last_;
         const std::vector<std::string>& files = report_.written;
         constexpr size_t most = 4;  // to be named
         for (size_t i = 0; i < std::min(files.size(), most); ++i)

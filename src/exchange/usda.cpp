@@ -97,6 +97,7 @@ struct UsdStage::Parts {
     std::set<std::string> names;
     std::vector<std::string> written;
     int first = 0, last = -1;
+    bool finished = false;
 
     std::string uniqueName(const std::string& wanted) {
         const std::string base = identifier(wanted);
@@ -221,7 +222,17 @@ UsdStage::UsdStage(const fs::path& target, double frameRate) : parts_(std::make_
     parts_->materials = UsdMaterials(parts_->file);
 }
 
-UsdStage::~UsdStage() = default;
+UsdStage::~UsdStage() {
+    if (parts_->finished) return;
+    std::error_code ignored;
+    for (const auto* files : {&parts_->written, &parts_->materials.images()})
+        for (const std::string& file : *files)
+            fs::remove(file, ignored);
+    if (!parts_->frames.empty()) {  // the folders as well, where they are empty
+        fs::remove(parts_->frames, ignored);
+        fs::remove(parts_->frames.parent_path(), ignored);
+    }
+}
 
 const std::vector<std::string>& UsdStage::written() const {
     return parts_->written;
@@ -396,6 +407,7 @@ void UsdStage::finish() {
     write("}\n");
     out.finish();
     p.note(p.file);
+    p.finished = true;
 }
 
 }  // namespace shoal::exchange

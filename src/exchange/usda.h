@@ -45,7 +45,7 @@ class UsdStage {
   public:
     // `target`: a name that ends in .usda, or a folder. Images lie beside the file. Error: cannot be written.
     UsdStage(const std::filesystem::path& target, double frameRate);
-    ~UsdStage();
+    ~UsdStage();  // without finish(): none of its files stays
 
     // Adds a mesh that does not move.
     void add(const DrawnMesh& mesh);
@@ -54,7 +54,7 @@ class UsdStage {
     size_t addMoving(const DrawnMesh& mesh, const UsdMoving& how);
     void sample(size_t moving, int frame, const UsdSample& sample);  // frames in order
     void endFrame(int frame);
-    // Error: disk full; no file of the stage is left half-written.
+    // Error: disk full; no file of the stage is left.
     void finish();
     const std::vector<std::string>& written() const;
 

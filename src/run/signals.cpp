@@ -6,9 +6,11 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <string_view>
 
 #include "core/contract.h"
+#include "core/error.h"
 #include "core/file.h"
 
 namespace shoal {
@@ -29,8 +31,14 @@ void say(std::string_view line) {
 void onSignal(int signal) {
     const int before = errno;
     int none = 0;
-    if (!finishes || !asked.compare_exchange_strong(none, signal)) endBySignal(signal);
     if (onTerminal) say("\n");
+    if (!finishes || !asked.compare_exchange_strong(none, signal)) {
+        const char digits[] = {char('0' + signal / 10), char('0' + signal % 10)};
+        say("shoal: stopped by signal ");
+        say(std::string_view(digits + (signal < 10), signal < 10 ? 1 : 2));
+        say("; what was not whole is removed\n");
+        endBySignal(signal);
+    }
     say("shoal: stops after this frame; a second signal ends it at once\n");
     errno = before;
 }
@@ -61,6 +69,10 @@ FinishesOnSignal::~FinishesOnSignal() {
 
 int signalThatAsked() {
     return asked;
+}
+
+std::string stoppedBySignal() {
+    return concat("stopped by signal ", int(asked), " (", ::strsignal(asked), ")");
 }
 
 void endBySignal(int signal) {

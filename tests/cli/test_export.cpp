@@ -455,3 +455,20 @@ TEST_CASE("Blender plays an animation texture back", "[cli][export][blender]") {
     CHECK(blender.code == 0);
     CHECK(blender.out.find("720 places: worst ") != std::string::npos);
 }
+
+TEST_CASE("an export that is refused leaves nothing", "[cli][exchange]") {
+    const Scratch scratch;
+    const auto molecule = [](const char* name) { return sourceFile(concat("molecules/", name)); };
+    const std::string scene = scratch.write(
+        "refused.scene.json",
+        concat(R"({"format": "shoal-scene-1", "groups": [{"name": "a", "molecule": ")",
+               molecule("minnow.json"),
+               R"(", "count": 1, "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}},
+ {"name": "b", "molecule": ")",
+               molecule("leaf.json"),
+               R"(", "life": {"span": 1}, "emitters": [{"from": "point", "rate": 9}]}]})"));
+    refusal({"export", scene, "--usd", scratch.path("o/a.usda"), "--frames", "2", "--rigid"},
+            "group \"b\" has births or deaths");
+    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"refused.scene.json"});
+    CHECK_FALSE(std::filesystem::exists(scratch.path("o")));
+}

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "cli/shoal_command.h"
 #include "core/image.h"
@@ -215,4 +216,45 @@ TEST_CASE("what is no file is neither waited for nor replaced", "[cli][signals]"
     std::filesystem::create_symlink("/dev/null", scratch.path("null.mp4"));
     if (hasFfmpeg())
         refusal(with({"--capture", scratch.path("null.mp4")}), "is a device, expected a file to write");
+}
+
+TEST_CASE("Ctrl-C leaves a whole stage of clips, or nothing of an export", "[cli][signals]") {
+    const Scratch scratch;
+    const auto exporting = [&](const Words& more) {
+        Words out{"export", squaresScene(), "--frames", "8000"};
+        out.insert(out.end(), more.begin(), more.end());
+        return out;
+    };
+    StartedShoal usd(exporting({"--usd", scratch.path("clips")}));
+    usd.waitForFile(scratch.path("clips/frames/clips-00003.usda"));
+    usd.send(SIGINT);
+    const Outcome stage = usd.finish();
+    INFO(stage.err);
+    CHECK(stage.signal == SIGINT);
+    const int last = stoppedAfter(stage);
+    CHECK_THAT(stage.err, Catch::Contains("shoal: stopped by signal 2 (Interrupt) after frame") &&
+                              Catch::Contains("clips.usda ends there"));
+    const std::string text = readFile(scratch.path("clips/clips.usda"));
+    CHECK_THAT(text, Catch::Contains(concat("endTimeCode = ", last - 1, "\n")));
+    CHECK(filesIn(scratch.path("clips/frames")).size() == size_t(last) + 1);  // and what they hold
+
+    StartedShoal vat(exporting({"--vat", scratch.path("vat")}));
+    std::this_thread::sleep_for(std::chrono::seconds(2));  // it says nothing while it runs
+    vat.send(SIGINT);
+    const Outcome textures = vat.finish();
+    CHECK(textures.signal == SIGINT);
+    CHECK_THAT(textures.err, Catch::Contains("shoal: stopped by signal 2"));
+    CHECK_FALSE(std::filesystem::exists(scratch.path("vat")));
+}
+
+TEST_CASE("whatever is stopped says so in one line", "[cli][signals]") {
+    const Scratch scratch;
+    StartedShoal bench({"bench", "--quick"}, {.folder = scratch.folder().string()});
+    bench.waitForError("This takes about");
+    bench.send(SIGTERM);
+    const Outcome outcome = bench.finish();
+    CHECK(outcome.signal == SIGTERM);
+    CHECK(outcome.messages() ==
+          std::vector<std::string>{"shoal: stopped by signal 15; what was not whole is removed"});
+    CHECK(filesIn(scratch.path("")).empty());
 }
