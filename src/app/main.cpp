@@ -4,6 +4,7 @@
 #include <new>
 
 #include "app/commands.h"
+#include "core/memory.h"
 #include "core/printable.h"
 #include "run/data_paths.h"
 #include "run/scene_list.h"
@@ -27,8 +28,9 @@ int main(int argc, char** argv) {
     shoal::catchSignals();
     // Whoever writes to them, of whatever names: no terminal takes it for anything but text.
     const shoal::PrintableStream out(std::cout), messages(std::cerr);
+    std::optional<Options> options;
     try {
-        std::optional<Options> options = parseOptions(argc, argv);
+        options = parseOptions(argc, argv);
         int code = 0;
         if (options) {
             findScenes(*options);
@@ -40,7 +42,9 @@ int main(int argc, char** argv) {
         if (const int signal = shoal::signalThatAsked()) shoal::endBySignal(signal);
         return code;
     } catch (const std::bad_alloc&) {
-        std::cerr << "shoal: out of memory\n";
+        const std::string file = options && options->files.size() == 1 ? options->files.front() + ": " : "";
+        std::cerr << "shoal: " << file << "out of memory: the command had taken "
+                  << shoal::mebibytes(size_t(shoal::mostMemoryTaken())) << " when it asked for more\n";
     } catch (const WrongUse& error) {
         std::cerr << "shoal: " << error.what() << "\n";
         return 2;

@@ -301,7 +301,11 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
             group.needs.springs && (group.solver == SolverKind::leapfrog ||
                                     (group.solver == SolverKind::euler && group.needs.collide));
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
-        packStart(scene, group);
+        const double vertices = double(group.count) * group.vertexCount;
+        namingMemory(
+            scene.groups[i].location,
+            concat(group.count, " molecules of ", group.vertexCount, " vertices in \"", group.name, "\""),
+            double(sizeof(glm::vec3)) * (2 * vertices + 2 * group.count), [&] { packStart(scene, group); });
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver),
                                   fitsLane(group) || group.isStill());  // which is drawn in fragments
         if (group.needs.liveSprings) {

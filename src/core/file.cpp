@@ -48,6 +48,12 @@ FileReader::FileReader(const fs::path& path) : location_{path.string()} {
     if (!file_ || ::fstat(file, &status) != 0)
         throw Error(location_, "cannot be read: ", std::strerror(errno));
     needRegular();
+    // As far as a file system compresses; what was never written costs nothing to make, and much to read.
+    constexpr uint64_t always = 64'000'000, most = 32;
+    const uint64_t size = uint64_t(status.st_size), stored = 512 * uint64_t(status.st_blocks);
+    if (size > always && size / most > stored)
+        throw Error(location_, "is sparse: of its ", size, " bytes only ", stored,
+                    " are stored, and the rest is nothing");
 }
 
 size_t FileReader::read(void* data, size_t bytes) {
@@ -60,11 +66,18 @@ size_t FileReader::read(void* data, size_t bytes) {
 std::string readFile(const fs::path& path, size_t maxBytes) {
     FileReader file(path);
     std::string bytes;
-    char chunk[1 << 16];
-    while (const size_t count = file.read(chunk, sizeof chunk)) {
-        bytes.append(chunk, count);
-        if (bytes.size() > maxBytes)
+    const auto needSmall = [&](uint64_t count) {
+        if (count > maxBytes)
             throw Error(file.location(), "is larger than ", maxBytes, " bytes, the most that is read");
+    };
+    std::error_code code;
+    const uint64_t size = fs::file_size(path, code);
+    if (!code) needSmall(size);
+    if (!code) bytes.reserve(size_t(size));
+    char chunk[1 << 16];
+    while (const size_t count = file.read(chunk, sizeof chunk)) {  // it may have grown since
+        bytes.append(chunk, count);
+        needSmall(bytes.size());
     }
     return bytes;
 }

@@ -15,4 +15,11 @@ int64_t availableMemory() {
     return std::numeric_limits<int64_t>::max();
 }
 
+int64_t mostMemoryTaken() {
+    std::ifstream in("/proc/self/status");
+    for (std::string line; std::getline(in, line);)
+        if (line.rfind("VmPeak:", 0) == 0) return std::stoll(line.substr(7)) << 10;
+    return 0;
+}
+
 }  // namespace shoal

@@ -79,6 +79,10 @@ std::vector<char*> pointers(Words& words) {
         const rlimit limit{*surroundings.largestFile, *surroundings.largestFile};
         if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
     }
+    if (surroundings.addressSpace) {
+        const rlimit limit{*surroundings.addressSpace, *surroundings.addressSpace};
+        if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(126);
+    }
     if (!surroundings.standardOutput.empty()) out = ::open(surroundings.standardOutput.c_str(), O_WRONLY);
     const int in = ::open("/dev/null", O_RDONLY);
     if (out < 0 || in < 0) ::_exit(126);

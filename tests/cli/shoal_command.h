@@ -25,10 +25,11 @@ struct Outcome {
 struct Surroundings {
     std::string folder = {};  // where it starts; empty: where the test runs
     std::map<std::string, std::optional<std::string>> environment =
-        {};                                  // nothing: the variable is taken away
-    std::optional<size_t> largestFile = {};  // bytes, as on a disk with that much left
-    std::string standardOutput = {};         // a file instead of Outcome::out
-    double seconds = 600;                    // then it hangs, also on a slow machine
+        {};                                   // nothing: the variable is taken away
+    std::optional<size_t> largestFile = {};   // bytes, as on a disk with that much left
+    std::optional<size_t> addressSpace = {};  // bytes, the most of memory
+    std::string standardOutput = {};          // a file instead of Outcome::out
+    double seconds = 600;                     // then it hangs, also on a slow machine
 };
 
 using Words = std::vector<std::string>;

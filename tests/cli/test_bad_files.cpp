@@ -192,3 +192,19 @@ TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
     refusal({"explain", scene, "--error", "1e-3"}, "at most 238609294 such molecules fit");
     refusal({"measure", scene}, "at most 238609294 such molecules fit");
 }
+
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("what does not fit into memory is named, with where and how much", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = scratch.write(
+        "count.scene.json", R"({"format": "shoal-scene-1", "groups": [{"name": "many", "molecule": ")" +
+                                sourceFile("molecules/quad.json") +
+                                R"(", "count": 100000000, "place": {"on": "volume",
+ "box": {"low": [-1, 0, -1], "high": [1, 2, 1]}}}]})");
+    const std::string message =
+        refusal({"check", scene},
+                "not enough memory for 100000000 molecules of 4 vertices in \"many\", which take about 11444",
+                {.addressSpace = size_t{4} << 30});
+    CHECK_THAT(message, Catch::Contains("count.scene.json:1:"));
+}
+#endif

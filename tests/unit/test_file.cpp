@@ -170,3 +170,21 @@ TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
     CHECK(readFile(folder / "kept") == "old");
     CHECK(entries(folder.folder()) == 1);
 }
+
+TEST_CASE("what is not really there is not read", "[file]") {
+    const test::Scratch folder;
+    const std::string sparse = folder.write("sparse", "begins");
+    const auto refusal = [&](off_t bytes, size_t most = size_t{1} << 40) {
+        REQUIRE(::truncate(sparse.c_str(), bytes) == 0);
+        return messageOf([&] { readFile(sparse, most); });
+    };
+    struct stat status {};
+    REQUIRE(::stat(sparse.c_str(), &status) == 0);
+    const std::string stored = std::to_string(512 * status.st_blocks);
+    CHECK(refusal(off_t{30} << 30) == sparse + ": is sparse: of its 32212254720 bytes only " + stored +
+                                          " are stored, and the rest is nothing");
+    CHECK(refusal(65'000'000).find("is sparse") != std::string::npos);
+    CHECK(refusal(63'000'000, 1000).find("is larger than 1000 bytes") != std::string::npos);
+    REQUIRE(::truncate(sparse.c_str(), 63'000'000) == 0);  // costs little, so nobody asks
+    CHECK(readFile(sparse).size() == 63'000'000);
+}
