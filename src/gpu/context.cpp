@@ -211,6 +211,27 @@ static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptio
     return state;
 }
 
+// A process that has had a context tries none in a child: what a driver has begun does not go on in a fork.
+static bool hadContext = false;
+
+static std::string crashOf(ContextKind kind, ContextOptions options) {
+    if (hadContext) return {};
+    options.visible = false;
+    return crashInChild([&] { (void)open(kind, options).release(); });
+}
+
+// Error: open()'s, or the driver crashes. One that did not is remembered, and not tried again.
+static std::unique_ptr<Context::State> openTried(ContextKind kind, const ContextOptions& options) {
+    const TriedDriver driver(options.cache, name(kind), options.device);
+    const bool isNew = !hadContext && kind != ContextKind::given && !driver.isKnown();
+    const std::string crash = isNew ? crashOf(kind, options) : "";
+    if (!crash.empty()) throw Error(crash);
+    std::unique_ptr<Context::State> state = open(kind, options);
+    if (isNew) driver.remember();
+    hadContext = true;
+    return state;
+}
+
 static std::vector<ContextKind> kindsToTry(const ContextOptions& options) {
     if (options.loader != nullptr) return {ContextKind::given};
     if (options.kind != ContextKind::automatic) return {options.kind};
@@ -224,7 +245,7 @@ Context::Context(const ContextOptions& options) {
     for (const ContextKind kind : kindsToTry(options)) {
         leaveCurrent();
         try {
-            state_ = open(kind, options);
+            state_ = openTried(kind, options);
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());
@@ -277,27 +298,55 @@ void Context::checkAlive() const {
                                                                   : ""));
 }
 
-static ContextProbe probe(ContextKind kind, std::optional<int> device) {
+static ContextOptions probeOptions(ContextKind kind, std::optional<int> device) {
+    ContextOptions out;
+    out.kind = kind;
+    out.device = device;
+    out.width = out.height = 64;
+    out.visible = false;
+    return out;
+}
+
+static ContextProbe probe(ContextKind kind, std::optional<int> device, const std::string& crash) {
     ContextProbe out;
     out.kind = kind;
     try {
-        ContextOptions options;
-        options.kind = kind;
-        options.device = device;
-        options.width = options.height = 64;
-        options.visible = false;
-        out.info = Context(options).info();
+        if (!crash.empty()) throw Error(crash);
+        out.info = Context(probeOptions(kind, device)).info();
     } catch (const std::exception& error) {
         out.reason = error.what();
     }
     return out;
 }
 
+static int deviceCount() {
+    try {
+        return countEglDevices();
+    } catch (const Error&) {
+        return 0;  // no EGL, no devices: probeContexts() says why
+    }
+}
+
+constexpr ContextKind probedKinds[] = {ContextKind::window, ContextKind::egl, ContextKind::osmesa};
+
+// How all of them crash, the kinds first, then EGL's devices: found out before any is made here.
+static const std::vector<std::string>& crashes() {
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> out;
+        for (const ContextKind kind : probedKinds)
+            out.push_back(crashOf(kind, probeOptions(kind, {})));
+        for (int i = 0; i < deviceCount(); ++i)
+            out.push_back(crashOf(ContextKind::egl, probeOptions(ContextKind::egl, i)));
+        return out;
+    }();
+    return all;
+}
+
 std::vector<ContextProbe> probeContexts() {
     Context::State* before = currentState;
     std::vector<ContextProbe> out;
-    for (const ContextKind kind : {ContextKind::window, ContextKind::egl, ContextKind::osmesa})
-        out.push_back(probe(kind, {}));
+    for (size_t i = 0; i < std::size(probedKinds); ++i)
+        out.push_back(probe(probedKinds[i], {}, crashes()[i]));
     restore(before);
     return out;
 }
@@ -305,12 +354,8 @@ std::vector<ContextProbe> probeContexts() {
 std::vector<ContextProbe> probeDevices() {
     Context::State* before = currentState;
     std::vector<ContextProbe> out;
-    try {
-        for (int i = 0; i < countEglDevices(); ++i)
-            out.push_back(probe(ContextKind::egl, i));
-    } catch (const Error&) {
-        // no EGL, no devices: probeContexts() says why
-    }
+    for (size_t i = std::size(probedKinds); i < crashes().size(); ++i)
+        out.push_back(probe(ContextKind::egl, int(out.size()), crashes()[i]));
     restore(before);
     return out;
 }

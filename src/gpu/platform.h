@@ -2,7 +2,10 @@
 // moment; used inside `gpu` only.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gpu/context.h"
@@ -47,6 +50,23 @@ struct AskedVersion {
 };
 inline constexpr AskedVersion askedVersions[] = {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2},
                                                  {4, 1}, {4, 0}, {3, 3}, {0, 0}};
+
+// ---- Drivers that crash (context_trial.cpp)
+
+// Makes a context in a fork. Returns how that crashed; empty: it did not.
+std::string crashInChild(const std::function<void()>& make);
+
+// A driver, by all that chooses it, whose first context has been made in a child.
+class TriedDriver {
+  public:
+    // `folder`: of the cache; empty: nothing can be remembered, and it counts as known.
+    TriedDriver(const std::string& folder, const std::string& kind, std::optional<int> device);
+    bool isKnown() const;
+    void remember() const;
+
+  private:
+    std::filesystem::path mark_;
+};
 
 bool isSoftwareRenderer(const std::string& renderer);
 

@@ -168,6 +168,33 @@ TEST_CASE("a context that cannot be had says what helps", "[cli]") {
     CHECK(member(member(other.json(), "context"), "kind").text == "osmesa");
 }
 
+TEST_CASE("a driver that crashes is told of, and the others are tried", "[cli]") {
+    const Scratch scratch;
+    const Surroundings crashing{.environment = {{"LD_LIBRARY_PATH", SHOAL_CRASHING_DRIVER},
+                                                {"SHOAL_CACHE", scratch.path("cache")},
+                                                {"DISPLAY", {}},
+                                                {"WAYLAND_DISPLAY", {}}}};
+    const std::string crash = "osmesa: its driver crashes when a context is made (Segmentation fault)";
+    refusal({"run", squaresScene(), "--context", "osmesa", "--frames", "1"}, crash, crashing);
+    const Outcome info = runShoal({"info", "--context", "osmesa"}, crashing);
+    CHECK(info.code == 1);
+    CHECK_THAT(info.out, Catch::Contains("not available: its driver crashes when a context is made"));
+    const JsonValue all = runShoal({"info", "--json"}, crashing).json();
+    for (const JsonValue& context : member(all, "contexts").items)
+        if (member(context, "context").text == "egl")
+            CHECK(member(context, "available").boolean == hasContext("egl"));
+    // One that makes a context is tried once.
+    if (!hasContext("egl")) return;
+    const auto tried = [&] {
+        CHECK(runShoal({"explain", squaresScene(), "--cost", "--context", "egl"}, crashing).code == 0);
+        const std::vector<std::string> files = filesIn(scratch.path("cache"));
+        return std::count_if(files.begin(), files.end(),
+                             [](const std::string& file) { return file.ends_with(".driver"); });
+    };
+    CHECK(tried() == 1);
+    CHECK(tried() == 1);
+}
+
 namespace {
 
 // An option as the tables of `shoal --markdown` have it.
