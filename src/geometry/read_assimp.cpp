@@ -178,6 +178,7 @@ class ModelFiles : public Assimp::DefaultIOSystem {
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         std::error_code code;
         if (!Exists(file)) return nullptr;
+        const FileReader readable(file);  // one that is sparse is refused
         const uint64_t bytes = std::filesystem::file_size(file, code);
         if (!code && seen_.insert(file).second) opened_(bytes);
         return DefaultIOSystem::Open(file, mode);
