@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/printable.h"
+#include "gpu/current.h"
 #include "gpu/framebuffer.h"
 #include "gpu/gl.h"
 #include "gpu/platform.h"
@@ -24,7 +25,7 @@ static void setCurrentLoader(Loader load, bool isWindow) {
     currentLoader = {load, isWindow, currentLoader.generation + 1};
 }
 
-static void leaveCurrent() {
+void leaveCurrent() {
     if (currentState != nullptr) currentState->platform->release();
     currentState = nullptr;
     setCurrentLoader(nullptr, false);

@@ -6,6 +6,7 @@
 #include "measure/accuracy.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
+#include "python/arguments.h"
 #include "python/parameters.h"
 #include "python/scene.h"
 #include "python/simulation.h"
@@ -13,8 +14,6 @@
 #include "scene/json/scene_file.h"
 
 namespace shoal::python {
-
-namespace {
 
 using Unlocked = py::call_guard<py::gil_scoped_release>;
 
@@ -25,6 +24,16 @@ struct FileFinding {
     int line = 0;
     bool error = false;
 };
+
+}  // namespace shoal::python
+
+template <>
+class pybind11::detail::type_caster<shoal::python::FileFinding>
+    : public shoal::python::MadeCaster<shoal::python::FileFinding> {};
+
+namespace shoal::python {
+
+namespace {
 
 FileFinding findingOf(const Location& where, const std::string& message, bool error) {
     return {where.file, where.path, message, where.line, error};
@@ -217,4 +226,6 @@ PYBIND11_MODULE(shoal, m) {
           "Error against cost of every method, as a list of dicts: relative error; s per vertex and "
           "simulated second. `duration`: s of simulated time; `solvers`: only these, or all where none is "
           "named; `seconds`: of measuring, about.");
+
+    tellArguments(m);
 }

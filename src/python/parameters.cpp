@@ -4,10 +4,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "python/arguments.h"
 
 namespace shoal::python {
-
-namespace {
 
 // Factors on the fields' weights or the forces' strengths, by name or number.
 class PyFactors {
@@ -47,14 +46,19 @@ class PyFactors {
         if (py::hasattr(factors, "keys")) {
             std::vector<std::pair<size_t, double>> all;  // nothing changes where one of them is wrong
             for (const py::handle key : factors.attr("keys")()) {
-                const auto value = factors.attr("__getitem__")(key).cast<double>();
+                const double value = number(what(), factors.attr("__getitem__")(key));
                 all.emplace_back(indexOf(py::reinterpret_borrow<py::object>(key)), finite(what(), value));
             }
             for (const auto& [index, value] : all)
                 setValue(index, value);
             return;
         }
-        const auto list = factors.cast<std::vector<double>>();
+        if (!py::isinstance<py::sequence>(factors) || py::isinstance<py::str>(factors))
+            throw py::type_error(concat(what(), ": expected a list or a mapping of factors, found ",
+                                        std::string(py::repr(factors))));
+        std::vector<double> list;
+        for (const py::handle factor : factors)
+            list.push_back(number(what(), factor));
         if (list.size() != size())
             throw Error(what(), ": expected ", size(), " factors, found ", list.size());
         for (const double value : list)
@@ -69,13 +73,13 @@ class PyFactors {
     size_t indexOf(const py::object& key) const {
         const std::vector<std::string> all = names();
         if (PyIndex_Check(key.ptr())) {
-            const auto number = py::int_(key).cast<py::ssize_t>();
-            if (number >= 0 && size_t(number) < all.size()) return size_t(number);
-            throw Error(what(), ": there is no number ", number, ": the scene has ", all.size());
+            const py::ssize_t index = python::indexOf(key);
+            if (index >= 0 && size_t(index) < all.size()) return size_t(index);
+            throw Error(what(), ": there is no number ", index, ": the scene has ", all.size());
         }
         if (!py::isinstance<py::str>(key))
             throw Error(what(), ": expected a name or a number, found ", std::string(py::repr(key)));
-        const auto word = key.cast<std::string>();
+        const auto word = std::string(py::str(key));
         const auto found = std::find(all.begin(), all.end(), word);
         if (found == all.end()) throw Error(what(), ": there is no \"", word, "\"", suggestion(word, all));
         return size_t(found - all.begin());
@@ -100,11 +104,17 @@ class PyFactors {
     Of of_;
 };
 
-Parameters& of(const PyParameters& self) {
+}  // namespace shoal::python
+
+template <>
+class pybind11::detail::type_caster<shoal::python::PyFactors>
+    : public shoal::python::MadeCaster<shoal::python::PyFactors> {};
+
+namespace shoal::python {
+
+static Parameters& of(const PyParameters& self) {
     return self.simulation->use().parameters;
 }
-
-}  // namespace
 
 void bindParameters(py::module_& m) {
     py::class_<PyFactors>(m, "Factors", "Factors by name or number, in the scene's order.")

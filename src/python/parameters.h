@@ -13,3 +13,7 @@ struct PyParameters {
 void bindParameters(py::module_& m);
 
 }  // namespace shoal::python
+
+template <>
+class pybind11::detail::type_caster<shoal::python::PyParameters>
+    : public shoal::python::MadeCaster<shoal::python::PyParameters> {};

@@ -12,7 +12,11 @@ namespace {
 std::filesystem::path pathOf(const py::object& source, const char* expected) {
     if (!py::isinstance<py::str>(source) && !py::hasattr(source, "__fspath__"))
         throw Error(expected, ", found ", std::string(py::repr(source)));
-    return py::cast<std::filesystem::path>(source);
+    try {
+        return py::cast<std::filesystem::path>(source);
+    } catch (const py::cast_error&) {  // such as a name with a zero in it
+        throw Error(expected, ", found ", std::string(py::repr(source)));
+    }
 }
 
 // JSON's text of a dict or list, in which NumPy's arrays and numbers may stand for lists and numbers.

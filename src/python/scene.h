@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "python/made.h"
 #include "scene/scene.h"
 
 namespace shoal::python {
@@ -30,3 +31,10 @@ py::array_t<double> restPositions(const PyMolecule& self);
 PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder);
 
 }  // namespace shoal::python
+
+template <>
+class pybind11::detail::type_caster<shoal::python::PyMolecule>
+    : public shoal::python::MadeCaster<shoal::python::PyMolecule> {};
+template <>
+class pybind11::detail::type_caster<shoal::python::PyScene>
+    : public shoal::python::MadeCaster<shoal::python::PyScene> {};

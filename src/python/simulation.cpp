@@ -6,31 +6,77 @@
 #include <mutex>
 #include <numbers>
 
+#include <unistd.h>
+
+#include "gpu/current.h"
+#include "python/arguments.h"
 #include "run/data_paths.h"
 #include "scene/json/scene_file.h"
 #include "simulate/checkpoint.h"
 
 namespace shoal::python {
 
+namespace {
+
+std::mutex devicesGuard;
+
 // Never destroyed: drivers do not outlive the interpreter's end.
+std::map<std::optional<int>, Device*>& devices() {
+    static auto& all = *new std::map<std::optional<int>, Device*>;
+    return all;
+}
+
+// When a thread ends, the devices that it used are there for the next one.
+struct ThreadEnd {
+    const pid_t process = ::getpid();
+
+    ~ThreadEnd() {
+        if (process != ::getpid()) return;  // the driver's threads are not in the child
+        const std::lock_guard lock(devicesGuard);
+        for (const auto& [number, device] : devices()) {
+            if (!device || device->thread != std::this_thread::get_id()) continue;
+            if (device->context.isCurrent()) gpu::leaveCurrent();
+            device->thread = {};
+        }
+    }
+};
+
+// Its context belongs to this thread until the thread ends.
+void take(Device& device) {
+    static thread_local const ThreadEnd end;
+    device.thread = std::this_thread::get_id();
+    (void)end;
+}
+
+}  // namespace
+
 Device& deviceOf(std::optional<int> number) {
-    static std::mutex guard;
-    const std::lock_guard lock(guard);
-    static auto& devices = *new std::map<std::optional<int>, Device*>;
-    Device*& device = devices[number];
+    const std::lock_guard lock(devicesGuard);
+    Device*& device = devices()[number];
     if (!device) {
         gpu::ContextOptions options = contextOptions();
         options.visible = false;
         options.device = number;
         if (number) options.kind = gpu::ContextKind::egl;
         device = new Device(options);
+        take(*device);
     }
     return *device;
 }
 
 void enter(Device& device) {
+    if (device.process != ::getpid())
+        throw Error(
+            "a simulation does not go on in a process that was forked after it was made: start "
+            "processes with multiprocessing's \"spawn\", and make it there");
+    {
+        const std::lock_guard lock(devicesGuard);
+        if (device.thread == std::thread::id()) take(device);
+    }
     if (device.thread != std::this_thread::get_id())
-        throw Error("a simulation is used in another thread than the one that made the first on its device");
+        throw Error(
+            "a simulation is used in another thread than the one that made the first on its device, "
+            "which has not ended");
     device.context.makeCurrent();
 }
 
@@ -237,13 +283,13 @@ size_t PySimulation::groupOf(const py::object& group) {
         throw Error("the scene has ", groups.size(), " groups: say which, by name or number");
     }
     if (PyIndex_Check(group.ptr())) {
-        const auto number = py::int_(group).cast<py::ssize_t>();
-        if (number >= 0 && size_t(number) < groups.size()) return size_t(number);
-        throw Error("there is no group ", number, ": the scene has ", groups.size());
+        const py::ssize_t index = indexOf(group);
+        if (index >= 0 && size_t(index) < groups.size()) return size_t(index);
+        throw Error("there is no group ", index, ": the scene has ", groups.size());
     }
     if (!py::isinstance<py::str>(group))
         throw Error("a group is a name, a number or None, found ", std::string(py::repr(group)));
-    const auto word = group.cast<std::string>();
+    const auto word = std::string(py::str(group));
     std::vector<std::string> names;
     for (size_t i = 0; i < groups.size(); ++i) {
         if (groups[i].name == word) return i;

@@ -1,13 +1,16 @@
 // Simulations with state as NumPy arrays.
 //
 // All simulations on one device share a context of OpenGL, which lives as long as the process and belongs to
-// the thread that made it.
+// the thread that made it until that ends, then to the next that uses it. A forked process cannot use it.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <thread>
+
+#include <sys/types.h>
+#include <unistd.h>
 
 #include "python/scene.h"
 #include "render/renderer.h"
@@ -20,13 +23,15 @@ using Vector3 = std::array<double, 3>;
 
 struct Device {
     gpu::Context context;
-    std::thread::id thread = std::this_thread::get_id();
+    std::thread::id thread = {};       // that it belongs to; none: that has ended
+    const pid_t process = ::getpid();  // that made it
 
     explicit Device(const gpu::ContextOptions& options) : context(options) {}
 };
 // By its number among those of EGL; nothing: the best. Made at the first call.
 Device& deviceOf(std::optional<int> number);
-// Makes its context current. Error: another thread made it.
+// Makes its context current. Error: it belongs to another thread, or to the process that this was forked
+// from.
 void enter(Device& device);
 
 // Error: a number is not finite; tells `what` it is.
@@ -93,3 +98,7 @@ class PySimulation {
 };
 
 }  // namespace shoal::python
+
+template <>
+class pybind11::detail::type_caster<shoal::python::PySimulation>
+    : public shoal::python::MadeCaster<shoal::python::PySimulation> {};

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import gc
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -332,3 +333,146 @@ def test_examples_run(script, tmp_path):
         assert float(run.stdout.split("misses by ")[1].split()[0]) < 0.05
     else:
         assert (tmp_path / f"{script}.png").stat().st_size > 10000
+
+
+def in_another_process(text):
+    """What `text` prints there: a crash or a wait is a failure of this test alone."""
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, (done.returncode, done.stderr)
+    return done.stdout
+
+
+# Every way to use an object of a class: its methods with up to three arguments, its properties read and set.
+USES = """
+import inspect, shoal
+VALUES = (None, 0, "a", 1e400, object(), "\\udc80", 1 << 70, {"a": "b"}, [1, 2])
+classes = [c for c in vars(shoal).values() if inspect.isclass(c) and not issubclass(c, BaseException)]
+assert len(classes) == 6
+def uses(c, make):
+    for name, member in vars(c).items():
+        if name in ("__init__", "__new__") or not (callable(member) or isinstance(member, property)):
+            continue
+        if isinstance(member, property):
+            yield name, lambda: getattr(make(), name)
+            for value in VALUES:
+                yield name, lambda: setattr(make(), name, value)
+            continue
+        for count in range(4):
+            for value in VALUES if count else VALUES[:1]:
+                yield name, lambda: getattr(make(), name)(*[value] * count)
+"""
+
+
+def test_what_was_made_without_its_constructor_raises():
+    out = in_another_process(USES + """
+import copy
+told = set()
+for c in classes:
+    for name, use in uses(c, lambda: c.__new__(c)):
+        try:
+            use()
+        except (shoal.Error, TypeError, AttributeError) as error:
+            if "without its constructor" in str(error):
+                told.add((c, name))
+        else:
+            raise SystemExit(f"{c.__name__}.{name} did not raise")
+    for name, member in vars(c).items():
+        if isinstance(member, property) or callable(member) and name not in ("__init__", "__new__"):
+            assert (c, name) in told, (c, name)
+for use in (lambda: shoal.Simulation(shoal.Scene.__new__(shoal.Scene)), lambda: shoal.measure(shoal.Scene.__new__(shoal.Scene)),
+            lambda: shoal.Scene({"groups": [{"molecule": shoal.Molecule.__new__(shoal.Molecule)}]})):
+    try:
+        use()
+    except shoal.Error as error:
+        print("without its constructor" in str(error))
+""")
+    assert out.split() == ["True"] * 3
+
+
+def test_arguments_that_do_not_fit_are_told_in_our_words():
+    in_another_process(USES + f"""
+import os, tempfile
+os.chdir(tempfile.mkdtemp())
+simulation = shoal.Simulation(shoal.Scene("hello"))
+made = [shoal.Molecule(f"{ROOT}/molecules/leaf.json"), simulation.parameters, simulation.parameters.fields, shoal.Scene("hello"),
+        shoal.check("none.json")[0], simulation]
+assert sorted(type(x).__name__ for x in made) == sorted(c.__name__ for c in classes)
+def holds(use):
+    try:
+        use()
+    except Exception as error:
+        text = str(error)
+        for word in ("PYBIND11", "incompatible", "Unable to cast", "Invoked with", "numpy.ndarray[", "arg0", "self:"):
+            assert word not in text, text
+for x in made:
+    for name, use in uses(type(x), lambda: x):
+        if (type(x), name) not in ((shoal.Simulation, "close"), (shoal.Simulation, "__exit__")):
+            holds(use)
+for f in (shoal.check, shoal.measure, shoal.Scene, shoal.Molecule, shoal.Simulation):
+    for value in VALUES:
+        for count in range(4):
+            if value != 0:  # the standard input as a file
+                holds(lambda: f(*[value] * count))
+                holds(lambda: f(nothing=value))
+                holds(lambda: f(shoal.Scene("hello"), duration="a", substeps=value))
+""")
+    with shoal.Simulation(shoal.Scene("hello")) as simulation:
+        with pytest.raises(TypeError, match=r"^Simulation.step: expected \(frames: int = 1\), found \('x'\)$"):
+            simulation.step("x")
+        with pytest.raises(TypeError, match=r"^Parameters.wind: expected \(float\), found \('x'\)$"):
+            simulation.parameters.wind = "x"
+        with pytest.raises(TypeError, match=r"^fields: expected a number, found 'x'$"):
+            simulation.parameters.fields = ["x"]
+    with pytest.raises(TypeError, match=r"^Simulation.__init__: expected \(scene: Scene, \*, .*found \(None\)$"):
+        shoal.Simulation(None)
+
+
+def test_a_forked_process_is_refused(hello):
+    hello.step()
+    child = os.fork()
+    if child == 0:
+        told = 0
+        for use in (hello.step, hello.positions, hello.hash, hello.picture, hello.restart, lambda: shoal.Simulation(shoal.Scene("hello"))):
+            try:
+                use()
+            except shoal.Error as error:
+                told += "forked" in str(error)
+        os._exit(told)
+    for _ in range(200):
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            break
+        time.sleep(0.1)
+    else:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        pytest.fail("the child waits for ever")
+    assert os.waitstatus_to_exitcode(status) == 6
+    hello.step()
+
+
+def test_a_device_goes_on_when_its_thread_has_ended():
+    out = in_another_process("""
+import threading, shoal
+kept = []
+def work():
+    kept.append(shoal.Simulation(shoal.Scene("hello")))
+    kept[0].step(3)
+raised = []
+def other_thread():
+    try:
+        kept[0].step(1)
+    except shoal.Error as error:
+        raised.append("another thread" in str(error))
+for target in (work, other_thread):
+    thread = threading.Thread(target=target)
+    thread.start()
+    thread.join()
+    if target is work:
+        other = shoal.Simulation(shoal.Scene("hello"))
+        other.step(5)
+        kept[0].step(2)
+        print(kept[0].hash() == other.hash(), (kept[0].picture(8, 8) == other.picture(8, 8)).all())
+print(raised)
+""")
+    assert out.split() == ["True", "True", "[True]"]
