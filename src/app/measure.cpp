@@ -1,6 +1,7 @@
 // `shoal measure`: what an error costs on a scene, for every method, step and field sampling.
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "app/measure.h"
@@ -65,6 +66,7 @@ AccuracyOptions accuracyOptions(const Options& options) {
 void choose(const Scene& scene, const Options& options, const AccuracyDevice& device, MeasureReport& report) {
     CalibrationOptions wanted = calibrationOptions(options);
     wanted.error = report.target;
+    wanted.seconds = std::numeric_limits<double>::infinity();  // its plan has told how long it takes
     wanted.solvers = options.solvers;
     wanted.samplings = options.samplings;
     try {
@@ -103,6 +105,7 @@ CalibrationOptions calibrationOptions(const Options& options) {
     if (options.sampling) out.samplings = {*options.sampling};
     out.substeps = options.substeps;
     out.duration = options.duration;
+    out.seconds = options.errorSeconds;
     out.version = SHOAL_VERSION;
     out.processor = processorName();
     out.folder = cacheFolder();
@@ -118,7 +121,14 @@ AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context) {
 }
 
 Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded) {
-    Calibration out = calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context));
+    CalibrationOptions wanted = calibrationOptions(options);
+    const Clock::time_point start = Clock::now();
+    wanted.tell = [start](const std::string& what) {
+        constexpr double silence = 2;  // s: what is quick says nothing
+        if (secondsSince(start) > silence)
+            std::cerr << "--error, after " << roughly(secondsSince(start)) << ": " << what << "\n";
+    };
+    Calibration out = calibrate(loaded.scene, wanted, accuracyDevice(options, context));
     measure::apply(out, loaded.scene);
     loaded.plan = compile(loaded.scene);
     tellWarnings(loaded.plan.warnings);

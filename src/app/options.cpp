@@ -61,8 +61,14 @@ void addError(CLI::App& command, Options& options, const std::string& what) {
 
 namespace {
 
-const char* const cheapest =
-    "Cheapest solver, substeps and field sampling whose measured error is below this";
+void addCheapest(CLI::App& command, Options& options) {
+    addError(command, options,
+             "Cheapest solver, substeps and field sampling whose measured error is below this");
+    addNumber(command, "--error-seconds", options.errorSeconds,
+              "Seconds in which --error is to find it (default 60)", "a time from 1 to 1e6 s",
+              [](double s) { return s >= 1 && s <= 1e6; });
+    needs(command, "--error-seconds", "--error");
+}
 
 void addScale(CLI::App& command, Options& options, const std::string& what) {
     addNumber(command, "--scale", options.scale, what,
@@ -94,7 +100,7 @@ void addRun(CLI::App& command, Options& options) {
         ->expected(0, 1)
         ->type_name("SCENE");
     section(command, ofScene);
-    addError(command, options, cheapest);
+    addCheapest(command, options);
     addOverrides(command, options);
     addPath(command, options);
     addContext(command, options);
@@ -312,7 +318,7 @@ static void declare(CLI::App& app, Options& options) {
     CLI::App* explain = add("explain", "Print what a scene compiles to, and why", scenes);
     addScene(*explain, options);
     addOverrides(*explain, options);
-    addError(*explain, options, cheapest);
+    addCheapest(*explain, options);
     addPath(*explain, options);
     addContext(*explain, options);
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");

@@ -89,6 +89,7 @@ struct Options : RunRequest {
 
     // run, explain, measure: the largest relative error that is wanted; chooses the method
     std::optional<double> error;
+    double errorSeconds = 60;  // run, explain: that finding it may take
     // measure (`seconds` and `plot` as above)
     std::vector<SolverKind> solvers;       // empty: all
     std::vector<FieldSampling> samplings;  // empty: all that differ

@@ -17,6 +17,7 @@ constexpr double worthSampling = 10;
 constexpr int mostTries = 8;            // of more substeps for the sample
 constexpr double closeEnough = 1.12;    // of the fewest substeps that do
 constexpr double secondsAMolecule = 3;  // of the reference
+constexpr double readying = 0.5;        // of the time: to make methods ready, before they are tried
 constexpr int fewOnGpu = 4096, fewOnCpu = 32;
 // Enough to fill the device, few enough to be quick.
 constexpr int manyOnGpu = 16384, manyOnCpu = 2048;
@@ -40,8 +41,11 @@ class Search {
                 kinds.push_back(one.kind);
         std::vector<FieldSampling> samplings = options_.samplings;
         if (samplings.empty()) samplings = samplingsThatDiffer(few_);
+        // of second order and more first: they get there soonest
+        std::stable_partition(kinds.begin(), kinds.end(),
+                              [](SolverKind kind) { return solver(kind).order > 1; });
         for (const SolverKind kind : kinds)
-            probe({kind, samplings.front()});
+            if (runs_.empty() || !late(readying)) probe({kind, samplings.front()});
         searchAll();
         const Run* ahead = cheapest();
         const double best = ahead == nullptr ? 0 : ahead->candidate.cost;
@@ -49,15 +53,21 @@ class Search {
         for (size_t i = 0; i < firsts; ++i) {
             const Candidate one = runs_[i].candidate;
             if (!one.reached || one.cost > worthSampling * best) continue;
-            for (size_t s = 1; s < samplings.size(); ++s)
+            for (size_t s = 1; s < samplings.size() && !late(); ++s)
                 probe({one.method.solver, samplings[s]});
         }
         searchAll();
         timeAgain();
         return conclude();
     }
+    // Whether more than this share of the time is over.
+    bool late(double share = 1) const { return secondsSince(start_) > share * options_.seconds; }
 
   private:
+    void tell(const std::string& what) const {
+        if (options_.tell) options_.tell(what);
+    }
+
     struct Run {
         Candidate candidate;
         std::unique_ptr<MethodRunner> few, many, all;  // all: of the sample
@@ -67,6 +77,7 @@ class Search {
     };
 
     void probe(const Method& method) {
+        tell(concat("making ", name(method.solver), " ready"));
         Run& run = runs_.emplace_back();
         run.candidate.method = method;
         run.few = std::make_unique<MethodRunner>(few_, method, device_);
@@ -109,16 +120,25 @@ class Search {
         runner.restart();
         const std::vector<Snapshot> starts = runner.snapshots();
         for (const int least = std::max(1, frames_ / 8);; frames_ = std::max(least, frames_ / 2)) {
+            tell(concat("solving the reference over ", frames_ / few_.frameRate, " s"));
             reference_ =
                 std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
                                             frames_ / few_.frameRate, device_.cores, options_.molecules);
-            const Settled settled = reference_->solve(0.01 * options_.error, secondsAMolecule);
+            const double left = std::max(0.0, readying * options_.seconds - secondsSince(start_));
+            const double each = 0.5 * left * device_.cores / std::max(1, reference_->molecules());
+            const Settled settled =
+                reference_->solve(0.01 * options_.error, std::min(secondsAMolecule, each));
             if (settled == Settled::yes ||
                 (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error))
                 break;
-            if (frames_ == least) throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
+            if (frames_ == least || late(readying))
+                throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
         }
-        sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_);
+        tell(concat("solving a sample of ", sampleMolecules, " molecules"));
+        const auto until = start_ + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(readying * options_.seconds));
+        sample_ =
+            std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_, until);
         sample_->settle();
     }
 
@@ -151,6 +171,7 @@ class Search {
 
     void search(Run& run) {
         run.searched = true;
+        tell(concat("trying ", name(run.candidate.method.solver)));
         int failed = 0, good = 0;
         double least = std::numeric_limits<double>::infinity();
         int passed = 0;  // steps without a smaller error
@@ -158,6 +179,10 @@ class Search {
             if (!run.few->refusal({substeps, 1}).empty()) {
                 failed = substeps;
                 continue;
+            }
+            if (late()) {
+                run.candidate.why = "no time was left";
+                return;
             }
             if (!canWin(run, substeps)) return;
             const double error = measure(run, substeps);
@@ -194,7 +219,7 @@ class Search {
             const int next = std::max(one.substeps + 1, int(std::lround(1.3 * one.substeps)));
             one.why = concat("does not get there: at ", one.substeps, " substeps ", run.sample.above, " of ",
                              run.sample.measured, " molecules are above, the worst at ", run.sample.worst);
-            if (options_.substeps || tries == mostTries || next > maxSubsteps ||
+            if (options_.substeps || tries == mostTries || late() || next > maxSubsteps ||
                 !run.few->refusal({next, 1}).empty() || !canWin(run, next))
                 return false;
             one.substeps = next;
@@ -214,7 +239,7 @@ class Search {
     // Between substeps that fail (or none) and substeps that do.
     void refine(Run& run, int failed, int good) {
         double error = *run.candidate.error;
-        while (failed > 0 && good - failed > 1 && good > closeEnough * failed) {
+        while (failed > 0 && good - failed > 1 && good > closeEnough * failed && !late()) {
             const int middle =
                 std::clamp(int(std::lround(std::sqrt(double(failed) * good))), failed + 1, good - 1);
             const double found = run.few->refusal({middle, 1}).empty()
@@ -268,7 +293,7 @@ class Search {
     void timeAgain() {
         for (Run& run : runs_) {
             Run* best = cheapest();
-            if (best == nullptr || &run == best || !run.candidate.reached) continue;
+            if (best == nullptr || &run == best || !run.candidate.reached || late()) continue;
             if (run.candidate.cost > 3 * best->candidate.cost) continue;
             losesAgain(
                 run.candidate.cost, best->candidate.cost, [&] { return costAt(run, run.candidate.substeps); },
@@ -313,6 +338,7 @@ class Search {
         }
         out.why = others > 0 ? concat("the cheapest of ", others + 1, " that get there")
                              : "the only one that gets there, or the first that nothing else can beat";
+        if (late()) out.why += concat("; the search ended after ", options_.seconds, " s");
         out.duration = frames_ / few_.frameRate;
         if (out.duration < 0.9 * options_.duration)
             out.why += concat("; over ", out.duration, " s only: over more there is no reference");
@@ -322,6 +348,14 @@ class Search {
 
     [[noreturn]] void refuse(const Candidate* nearest) const {
         const Location place{few_.file, 0, 0, {}};
+        if (late())
+            throw Error(
+                place,
+                concat("--error ", options_.error, ": no method was found to hold it in ", options_.seconds,
+                       " s: give it more time with --error-seconds",
+                       nearest ? concat("; the nearest by then is ", name(nearest->method.solver), " with ",
+                                        nearest->substeps, " substeps a frame and ", *nearest->error)
+                               : ""));
         if (nearest == nullptr)
             throw Error(place, concat("--error ", options_.error, ": no method can run this scene: ",
                                       runs_.empty() ? "none is left" : runs_.front().candidate.why));
@@ -335,6 +369,7 @@ class Search {
 
     const CalibrationOptions& options_;
     const AccuracyDevice& device_;
+    const Clock::time_point start_ = Clock::now();
     Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
     std::unique_ptr<ExactEnds> reference_;
@@ -356,14 +391,19 @@ Plan plainPlan(const Scene& scene) {
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device) {
     if (!(options.error > 0 && options.error <= 1))
         throw Error(concat("--error: expected a relative error above 0, at most 1, found ", options.error));
+    if (options.error < ExactEnds::floor)
+        throw Error(concat("--error ", options.error, " is out of reach: single floats hold the places of a ",
+                           "molecule's vertices to about ", ExactEnds::floor, " of its size"));
     if (scene.groups.empty())
         throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to calibrate");
     const Clock::time_point start = Clock::now();
     const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
-    Calibration out = Search(scene, options, device).run();
+    Search search(scene, options, device);
+    Calibration out = search.run();
+    const bool whole = !search.late();
     out.seconds = secondsSince(start);
-    keepCalibration(options.folder, key, out);
+    if (whole) keepCalibration(options.folder, key, out);
     return out;
 }
 

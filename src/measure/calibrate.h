@@ -6,9 +6,10 @@
 //
 // The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
 // on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,
-// the kernels, the driver, the processor, the version.
+// the kernels, the driver, the processor, the version. One that ran out of time is not kept.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 #include "core/json.h"
 #include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
+#include "measure/timing.h"
 
 namespace shoal::measure {
 
@@ -42,9 +44,11 @@ struct CalibrationOptions {
     std::vector<SolverKind> solvers = {};
     std::vector<FieldSampling> samplings = {};
     std::optional<int> substeps = {};
-    double duration = 1;      // s of simulated time; less where there is no reference then, to an eighth
-    int molecules = 4;        // of each group, with the reference
-    std::string version;      // of the program
+    double duration = 1;  // s of simulated time; less where there is no reference then, to an eighth
+    int molecules = 4;    // of each group, with the reference
+    double seconds = 60;  // of the search, about: then the best that was found is taken
+    std::function<void(const std::string&)> tell = {};  // what is done next, when that changes
+    std::string version;                                // of the program
     std::string processor;    // its name: renderers that draw in software go by one name on all
     std::string folder = {};  // where results are kept; empty: nowhere
 };
@@ -75,7 +79,8 @@ struct Calibration {
     double seconds = 0;  // that the search took
 };
 
-// Error: no method gets there: which is best, with which step, how near; or there is no reference.
+// Error: no method gets there, or none in time: which is best, with which step, how near; or there is no
+// reference; or the error is below what single floats hold, which is told before anything is measured.
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device);
 
 // The scene with what was found.
@@ -101,8 +106,9 @@ JsonValue asJson(const Calibration& calibration);
 class MoleculeSample {
   public:
     // `error`: what is wanted; `core`: of the first molecules of the scene's groups. Borrows all of them.
+    // `until`: what is not settled then stays so.
     MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
-                   const AccuracyDevice& device);
+                   const AccuracyDevice& device, Clock::time_point until);
 
     // Finds the method that the others are held against. What it does not settle has the reference, as far as
     // time allows.
@@ -134,6 +140,7 @@ class MoleculeSample {
     int frames_;
     const ExactEnds& core_;
     const AccuracyDevice& device_;
+    Clock::time_point until_;
     std::unique_ptr<MethodRunner> runner_;  // whose plan and starts the references are of
     std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
     std::string by_;

@@ -21,8 +21,8 @@ bool SampleError::holds(double error) const {
 }
 
 MoleculeSample::MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
-                               const AccuracyDevice& device)
-    : scene_(scene), error_(error), frames_(frames), core_(core), device_(device) {}
+                               const AccuracyDevice& device, Clock::time_point until)
+    : scene_(scene), error_(error), frames_(frames), core_(core), device_(device), until_(until) {}
 
 std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
                                               const std::vector<Snapshot>& b) const {
@@ -46,7 +46,7 @@ bool MoleculeSample::settled() const {
 void MoleculeSample::settle() {
     // another method where one does not settle them: what is stiff stays to the implicit ones
     for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd})
-        if (settleBy(kind)) break;
+        if (settleBy(kind) || Clock::now() > until_) break;
     for (One& one : molecules_)
         if (!told(one)) ask(one);
 }
@@ -112,14 +112,14 @@ bool MoleculeSample::settleBy(SolverKind kind) {
             });
             if (100 * rough <= int(molecules_.size())) return true;
         }
-        if (2 * seconds > secondsARun) break;
+        if (2 * seconds > std::min(secondsARun, -secondsSince(until_))) break;
         coarse = fine;
     }
     return settled();
 }
 
 void MoleculeSample::ask(One& one) {
-    if (one.given || asked_ >= mostAsked) return;
+    if (one.given || asked_ >= mostAsked || Clock::now() > until_) return;
     one.given = true;
     ++asked_;
     const std::vector<std::pair<size_t, int>> which = {{one.group, one.index}};

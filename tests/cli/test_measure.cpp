@@ -180,7 +180,8 @@ TEST_CASE("a report measures again what was measured otherwise", "[cli]") {
 TEST_CASE("--error finds a method, once", "[cli]") {
     const Scratch scratch;
     const std::string scene = shearScene(scratch);
-    const Words words = {"run", scene, "--headless", "--frames", "2", "--json", "--error", "1e-3"};
+    const Words words = {"run",    scene,     "--headless", "--frames",        "2",
+                         "--json", "--error", "1e-3",       "--error-seconds", "1000"};
     const Outcome first = runShoal(words, cacheIn(scratch));
     INFO(first.err);
     REQUIRE(first.code == 0);
@@ -222,6 +223,8 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
         refusal({"run", scene, "--headless", "--error", bad}, "--error: expected a relative error above 0");
     refusal({"explain", scene, "--error", "small"},
             "--error: expected a relative error above 0, at most 1, found \"small\"");
+    refusal({"run", scene, "--headless", "--error", "1e-30"}, "--error 1e-30 is out of reach: single floats");
+    refusal({"run", scene, "--headless", "--error-seconds", "2"}, "--error-seconds requires --error");
     const std::string message = refusal(
         {"explain", scene, "--error", "1e-4", "--solver", "euler", "--substeps", "8"},
         "--error 0.0001 is out of reach for a sample of its molecules: the nearest is euler with 8 substeps",
