@@ -107,33 +107,6 @@ TEST_CASE("a cut material has holes, and so has its shadow", "[render][material]
     CHECK(changed(lit, shaded, 60).count > 20);
 }
 
-TEST_CASE("a blended material casts a shadow as strong as its opacity", "[render][material]") {
-    // The wall behind, seen from the side, which the sun reaches through the blended one alone.
-    const auto lit = [](double opacity, const std::vector<Image>& images = {}) {
-        SurfaceMaterial blended, white;
-        blended.alpha = Alpha::blend;
-        blended.color = {1, 1, 1, opacity};
-        if (!images.empty()) blended.colorImage = 0;
-        Scene scene = sceneOf({wall(blended, images), wall(white, {}, -0.4)});
-        scene.light.direction = {0, 0, -1};
-        scene.light.shadows = true;
-        scene.camera.eye = {1.6, 0, 0};
-        scene.camera.target = {0, 0, -0.4};
-        const Image image = show(scene).image;
-        double sum = 0;
-        for (int y = -6; y <= 6; ++y)
-            for (int x = -6; x <= 6; ++x)
-                sum += brightness(pixel(image, 80 + x, 60 + y)) / 169.0;
-        return sum;
-    };
-    const double clear = lit(0), half = lit(0.5), whole = lit(1);
-    INFO(clear << ", " << half << ", " << whole);
-    CHECK(clear > whole + 100);
-    CHECK(half < clear - 30);
-    CHECK(half > whole + 30);
-    CHECK(lit(1, {Image{1, 1, 4, {255, 255, 255, 0}}}) == Approx(clear).margin(1));
-}
-
 TEST_CASE("a blended material shows what is behind it, from whichever side", "[render][material]") {
     SurfaceMaterial glass;
     glass.color = {0, 1, 0, 0.5};
