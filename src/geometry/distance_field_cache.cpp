@@ -182,6 +182,7 @@ static DistanceField aboutMiddle(const Mesh& mesh, const FieldRequest& request, 
 
 DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
                               std::vector<Warning>& warnings) {
+    if (mesh.triangles.empty()) throw Error(noTriangles);
     DistanceField field = aboutMiddle(mesh, request, baking, warnings);
     move(field, middleOf(mesh));
     field.surface = examineSurface(mesh);
