@@ -136,7 +136,7 @@ TEST_CASE("an ffmpeg's word is not taken for what it wrote", "[picture]") {
     const auto told = [&](const std::string& script) {
         writeScript(scratch, script);
         return messageOf([&] {
-            VideoWriter writer(file, 7, 5, 30, 0.3);
+            VideoWriter writer(file, 7, 5, 30, false, 0.3);
             for (int i = 0; i < 3; ++i)
                 writer.write(plain(7, 5));
             writer.finish();
@@ -164,7 +164,7 @@ TEST_CASE("an ffmpeg that takes no picture is not waited for", "[picture]") {
     std::filesystem::create_directory(scratch.path("out"));
     writeScript(scratch, "exec sleep 600\n");
     const std::string message = messageOf([&] {
-        VideoWriter writer(scratch.path("out/a.mp4"), 256, 256, 30, 0.3);
+        VideoWriter writer(scratch.path("out/a.mp4"), 256, 256, 30, false, 0.3);
         for (int i = 0; i < 50; ++i)
             writer.write(plain(256, 256));  // more than a pipe holds
     });
