@@ -66,6 +66,7 @@ class Reader3mf {
         if (!anyColors_) mesh_.colors.clear();
         if (!anyUvs_) mesh_.uvs.clear();
         if (opacity_) note("its colours' opacity is not drawn");
+        tellOfRounding(mesh_);
         return std::move(mesh_);
     }
 

@@ -275,6 +275,21 @@ TEST_CASE("polygons are cut into triangles that cover them once", "[ply][model]"
     CHECK(areaOf(arrow) == Approx(6));
 }
 
+TEST_CASE("PLY: points without faces are a cloud", "[ply][model]") {
+    const Mesh mesh = read(concat("ply\nformat ascii 1.0\nelement vertex 2\n", xyz,
+                                  "property float nx\nproperty float ny\nproperty float nz\nproperty float "
+                                  "intensity\nend_header\n1 2 3 0 0 1 9\n4 5 6 1 0 0 9\n"));
+    CHECK(mesh.triangles.empty());
+    CHECK(mesh.positions == std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}});
+    CHECK(mesh.weldedPositions.size() == 2);
+    CHECK(mesh.normals[1] == glm::dvec3(1, 0, 0));
+    REQUIRE(mesh.notes.size() == 2);
+    CHECK_THAT(mesh.notes[0], Contains("\"intensity\" is not read"));
+    CHECK_THAT(mesh.notes[1], Contains("a cloud of 2 points"));
+    CHECK_THAT(refusal(concat("ply\nformat ascii 1.0\nelement vertex 0\n", xyz, "end_header\n")),
+               Contains("has no triangles"));
+}
+
 TEST_CASE("PLY: what is no PLY is refused where it is wrong", "[ply][model]") {
     const std::string good = header("ascii", 3, xyz, 1, list), body = "0 0 0\n1 0 0\n0 1 0\n";
     const auto with = [&](const char* from, const char* to) {
