@@ -39,8 +39,11 @@ std::optional<std::string> parametersIn(const std::string& message, bool method)
     const size_t end = message.find('\n', begin + 1);
     if (begin == std::string::npos || end == std::string::npos) return {};
     begin = message.find('(', begin) + 1;
-    std::string inside = message.substr(begin, message.rfind(") -> ", end) - begin);
-    if (inside.empty() || !method) return inOurWords(inside);
+    // that of a constructor is "    1. shoal.X(frames: int = 1)"
+    const std::string line = message.substr(begin, end - begin);
+    const size_t arrow = line.rfind(") -> ");
+    const std::string inside = line.substr(0, arrow != std::string::npos ? arrow : line.rfind(')'));
+    if (inside.empty() || !method || arrow == std::string::npos) return inOurWords(inside);
     const size_t comma = inside.find(", ");
     return comma == std::string::npos ? "" : inOurWords(inside.substr(comma + 2));
 }
