@@ -200,8 +200,7 @@ std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene
     const std::vector<GroupPlan>& plans = simulation.plan().groups;
     std::vector<Rigidity> out(plans.size(), {.asInstances = asked.rigid});
     for (const GroupPlan& plan : plans)
-        if (asked.rigid && plan.needs.life &&
-            !GroupMesh(scene.groups[plan.index], plan.constants.seeds).points())
+        if (asked.rigid && plan.needs.life && !GroupMesh(scene.groups[plan.index]).points())
             throw Error("group \"", plan.name,
                         "\" has births or deaths: --rigid needs molecules that live throughout");
     if (!asked.rigidWithin) return out;

@@ -225,9 +225,10 @@ UsdStage::UsdStage(const fs::path& target, double frameRate) : parts_(std::make_
 UsdStage::~UsdStage() {
     if (parts_->finished) return;
     std::error_code ignored;
-    for (const auto* files : {&parts_->written, &parts_->materials.images()})
-        for (const std::string& file : *files)
-            fs::remove(file, ignored);
+    for (const std::string& file : parts_->written)
+        fs::remove(file, ignored);
+    for (const std::string& file : parts_->materials.images())
+        fs::remove(file, ignored);
     if (!parts_->frames.empty()) {  // the folders as well, where they are empty
         fs::remove(parts_->frames, ignored);
         fs::remove(parts_->frames.parent_path(), ignored);
