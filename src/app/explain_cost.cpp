@@ -71,12 +71,13 @@ std::string asText(const SceneCost& all) {
         out += "no rates: copies and multiply-adds are measured with compute shaders (OpenGL 4.3)\n";
     out +=
         "\nof a molecule and frame; ms: what all of them take at the least, at those rates\n"
-        "                      a lane a    bytes operations  fetches: state  tables  shared  registers occupancy "
+        "                      a lane a    bytes operations  fetches: state  tables  shared  registers "
+        "occupancy "
         "memory ms arithmetic ms  bound\n";
     for (const KernelCost& cost : all.kernels) {
         out += formatted("  %-20s%8s%9.0f%11.0f%16.0f%8.0f%8d%11d", printable(cost.group).c_str(),
-                         cost.lanes == Lanes::vertex ? "vertex" : "molecule", cost.bytes, cost.operations, cost.stateFetches, cost.tableFetches, cost.sharedBytes,
-                         cost.registers);
+                         cost.lanes == Lanes::vertex ? "vertex" : "molecule", cost.bytes, cost.operations,
+                         cost.stateFetches, cost.tableFetches, cost.sharedBytes, cost.registers);
         out += all.software ? formatted("%10s", "-") : formatted("%9.0f%%", cost.occupancy * 100);
         if (all.rates)
             out += formatted("%10.3g%14.3g", memorySeconds(cost, *all.rates) * 1e3,

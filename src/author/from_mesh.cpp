@@ -554,6 +554,7 @@ void checkOptions(const FromMesh& o) {
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     checkOptions(options);
+    if (mesh.triangles.empty()) throw Error("the mesh ", noTriangles);
     const Mesh all = placed(mesh, options), shape = withoutDoubledWalls(all);
     if (options.springs != FromMesh::Springs::automatic || options.rings || !options.skin)
         return Maker(all, shape, options).run();

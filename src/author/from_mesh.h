@@ -105,8 +105,8 @@ struct MadeMolecule {
     std::optional<Image> image;      // the skin's colours, by its texture coordinates
 };
 
-// Error, which begins with the name of the option: a number that is out of range, two that exclude each other,
-// more vertices than the fused path holds.
+// Error, which begins with the name of the option: a number that is out of range, two that exclude each
+// other, more vertices than the fused path holds.
 void checkOptions(const FromMesh& options);
 
 // Error: without a place, as the mesh or the options have it: no volume where one is needed, more vertices

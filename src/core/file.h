@@ -65,8 +65,8 @@ FilePointer unnamedFile(const std::filesystem::path& target);
 // Reads a file piece by piece, where it need not lie in memory as a whole.
 class FileReader {
   public:
-    // Error: no such file, unreadable, no regular file (a FIFO would be waited for, a device has no end), sparse
-    // (above 64 MB and 32 times what is stored of it), or it may not be opened (refuseOutside).
+    // Error: no such file, unreadable, no regular file (a FIFO would be waited for, a device has no end),
+    // sparse (above 64 MB and 32 times what is stored of it), or it may not be opened (refuseOutside).
     explicit FileReader(const std::filesystem::path& path);
     // The bytes that were there: fewer than asked for only at the end. Error: cannot be read.
     size_t read(void* data, size_t bytes);

@@ -136,6 +136,8 @@ void PlyFile::readHeader() {
                 throw fail(concat("expected ascii, binary_little_endian or binary_big_endian, found ",
                                   quoted(words[1])));
             swapped_ = little != (std::endian::native == std::endian::little);
+        } else if (elements_.empty()) {
+            comments_.emplace_back(line);  // as old programs write them, without the word
         } else {
             throw fail("expected a line of a PLY header, found " + quoted(line));
         }

@@ -114,7 +114,7 @@ TEST_CASE("the last element of a kind can go, and the first come", "[draft]") {
 TEST_CASE("a draft that cannot be read, or is of another file, is not saved", "[draft]") {
     Draft draft = opened();
     draft.molecule.vertices[1].position = {0, 0, 0};
-    CHECK(problemOf(draft.molecule).find("no length") != std::string::npos);
+    CHECK(problemOf(draft.molecule).find("stand in the same place") != std::string::npos);
     CHECK_THROWS_AS(withEdits(squareText, draft), Error);
     CHECK(problemOf(opened().molecule).empty());
 

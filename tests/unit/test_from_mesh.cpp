@@ -227,7 +227,7 @@ TEST_CASE("a skin of fewer triangles is as large as the mesh", "[from-mesh]") {
     CHECK(report.closed());
     CHECK(report.volume == Approx(out.volume).epsilon(0.03));
     options.skinTriangles = 2;
-    CHECK(refused(mesh, options) == "expected at least 4 triangles of the skin, found 2");
+    CHECK(refused(mesh, options) == "skin-triangles: expected at least 4, found 2");
 }
 
 TEST_CASE("a made molecule is written and read back equal", "[from-mesh]") {

@@ -66,7 +66,8 @@ TEST_CASE("what is not JSON is refused with its place", "[json]") {
     CHECK(parseError("[-Infinity]").find("Infinity (JSON has finite numbers only)") != std::string::npos);
     CHECK(parseError("[tru]") == "f:1:2: expected a value, found 't'");
     CHECK(parseError("// x\n{}") == "f:1:1: expected a value, found a comment (use a key \"comment\")");
-    CHECK(parseError("{\"a\":\n 1e999}").starts_with("f:2:2: expected a number that fits a double, found 1e999"));
+    CHECK(parseError("{\"a\":\n 1e999}")
+              .starts_with("f:2:2: expected a number that fits a double, found 1e999"));
     CHECK(parseError("[01]") != "");
     CHECK(parseError("[1.]") == "f:1:4: expected digits after the decimal point, found ']'");
     CHECK(parseError("{\"a\": 1, \"a\": 2}") == "f:1:10: key \"a\" appears twice (at $.a)");

@@ -330,7 +330,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         const bool rigid = std::find(set.begin(), set.end(), "RIGID") != set.end();
         set.insert(set.end(), sizes.begin(), sizes.end());
         Defines walls = set;
-        walls.emplace_back("WALLS");
+        walls.insert(walls.end(), {"WALLS", "CONTACT_RADIUS 0.1"});
         contact("walls", walls);
         if (rigid) set.emplace_back("BODIES");
         for (const char* file : {"spheres", "effective_sum", "spread"})
@@ -543,7 +543,8 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     validator.addPicture("render/covered.frag", {});
     validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
     validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});
-    for (const auto& more : {std::vector<std::string>{"BLENDED"}, {"IMAGES", "HOLES"}, {"BLENDED", "IMAGES", "HOLES"}}) {
+    for (const auto& more :
+         {std::vector<std::string>{"BLENDED"}, {"IMAGES", "HOLES"}, {"BLENDED", "IMAGES", "HOLES"}}) {
         std::vector<std::string> defines = {"DEPTH_ONLY"};
         defines.insert(defines.end(), more.begin(), more.end());
         validator.addPicture("render/surface_shadow.frag", defines);
