@@ -410,9 +410,11 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
         // What an option takes is told first, since that error names it.
-        const bool namesOption = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr ||
-                                 dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr;
-        std::string message = namesOption ? takesNoValue(error.what()) : explainExtras(app, argc, argv);
+        const std::string told = error.what();
+        const bool namesOption =
+            told.rfind('-', 0) == 0 && (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr ||
+                                        dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr);
+        std::string message = namesOption ? takesNoValue(told) : explainExtras(app, argc, argv);
         if (message.empty()) message = error.what();
         throw WrongUse(message + "; see " + nameOf(reached(app)) + " --help");
     }

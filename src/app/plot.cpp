@@ -56,8 +56,7 @@ void drawWithGnuplot(const std::string& file, const std::string& script) {
     try {
         checkPicture(readFile(part.path()), file);
     } catch (const Error& error) {
-        fail(concat("what it wrote is not whole", log.empty() ? "" : ", ",
-                    log.empty() ? error.message() : log));
+        fail(concat("what it wrote is not whole, ", log.empty() ? error.message() : log));
     }
     part.replaceTarget();
 }

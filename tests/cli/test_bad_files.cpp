@@ -144,7 +144,7 @@ TEST_CASE("models without triangles, or that are none", "[cli]") {
     const Scratch scratch;
     const std::string scene = writeSmallScene(scratch);
     scratch.write("hill.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\n");
-    refusedRun(scratch, scene, "hill.obj: ");
+    refusedRun(scratch, scene, "model \"hill\" has no triangles");
     scratch.write("hill.obj", "\x7f\x45\x4c\x46 no mesh\n");
     refusedRun(scratch, scene, "hill.obj: ");
     std::filesystem::remove(scratch.path("hill.obj"));

@@ -84,7 +84,7 @@ TEST_CASE("bench leaves out what the context lacks", "[cli]") {
 }
 
 TEST_CASE("bench refuses what it cannot do", "[cli]") {
-    refusal({"bench", "--quick", "--report", ""}, "--report: expected the name of a file");
+    refusal({"bench", "--quick", "--report", ""}, "--report: expected a value, found nothing");
     refusal({"bench", "--seconds", "0"}, "--seconds: expected a time above 0, at most 3600 s, found \"0\"");
     refusal({"bench", "--seconds", "nan"}, "--seconds: expected a time above 0");
     refusal({"bench", "--seconds", "ten"},
@@ -121,6 +121,7 @@ TEST_CASE("bench asks for gnuplot before it measures", "[cli]") {
     // one that ends well on a full disk: the old picture stays
     scratch.write("speed.svg", "old");
     scratch.write("gnuplot", "#!/bin/sh\necho '<svg><path d=\"M 0'\n");
+    std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms::owner_all);
     const Outcome cut = runShoal(words, {.environment = {{"PATH", scratch.folder().string()}}});
     CHECK(cut.code == 1);
     REQUIRE(cut.messages().size() == 1);
