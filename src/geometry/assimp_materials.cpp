@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 
 #include "core/error.h"
@@ -87,10 +86,8 @@ class MaterialReader {
         }
         out.color = glm::dvec4(glm::min(base.value_or(glm::dvec3(1)), 1.0), 1);
         out.emissive = color(AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
-        const bool black = out.emissive == glm::dvec3(0);
-        if (black && get<aiString>(AI_MATKEY_GLTF_ALPHAMODE)) return;  // in glTF the factor counts
         out.emissiveImage = imageOf("emissive", {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
-        if (black && out.emissiveImage >= 0) out.emissive = glm::dvec3(1);
+        if (out.emissive == glm::dvec3(0) && out.emissiveImage >= 0) out.emissive = glm::dvec3(1);
     }
 
     void readSurface(SurfaceMaterial& out) {
@@ -103,11 +100,7 @@ class MaterialReader {
             out.roughness = roughnessOfExponent(*exponent);
         }
         out.roughnessImage = imageOf("roughness", {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS});
-        if (out.roughnessImage < 0 &&
-            material_->GetTextureCount(aiTextureType_UNKNOWN) > 0)  // glTF's, where Assimp has no name for it
-            out.roughnessImage = imageOf("roughness", {aiTextureType_UNKNOWN});
         out.normalImage = imageOf("normal", {aiTextureType_NORMAL_CAMERA, aiTextureType_NORMALS});
-        out.normalScale = number(AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
     }
 
     // Glass is blended. A format that has transmission says no index with it; glTF's is 1.5 then.
@@ -122,15 +115,6 @@ class MaterialReader {
 
     void readAlpha(SurfaceMaterial& out) {
         const double opacity = share(AI_MATKEY_OPACITY).value_or(1);
-        if (const std::optional<aiString> mode = get<aiString>(AI_MATKEY_GLTF_ALPHAMODE)) {
-            const std::string word = mode->C_Str();
-            out.alpha = word == "BLEND"  ? SurfaceMaterial::Alpha::blend
-                        : word == "MASK" ? SurfaceMaterial::Alpha::cut
-                                         : SurfaceMaterial::Alpha::opaque;
-            out.alphaCut = share(AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5);
-            if (out.alpha != SurfaceMaterial::Alpha::opaque) out.color.a = opacity;
-            return;
-        }
         const int mask = imageOf("opacity", {aiTextureType_OPACITY});
         setOpacity(out, opacity, mask, images_, mesh_.images, [&](const std::string& what) { note(what); });
     }
@@ -204,21 +188,9 @@ TextureCoordinates textureCoordinatesOf(const aiMaterial& material) {
         if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), moved) != AI_SUCCESS) break;
         const double c = std::cos(moved.mRotation), s = std::sin(moved.mRotation);
         const glm::dvec2 scale(moved.mScaling.x, moved.mScaling.y);
-        glm::dvec2 offset(moved.mTranslation.x, moved.mTranslation.y);
-        aiString mode;
-        if (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS) {
-            // Assimp has turned glTF's shift, of images whose v points down, into one about the image's
-            // middle.
-            offset.x -= 0.5 * scale.x * (1 - c - s);
-            offset.y -= 0.5 * scale.y * (c - s - 1) + 1 - scale.y;
-            const glm::dmat3 upsideDown(1, 0, 0, 0, -1, 0, 0, 1, 1);
-            const glm::dmat3 turned(c * scale.x, s * scale.x, 0, -s * scale.y, c * scale.y, 0, offset.x,
-                                    -offset.y, 1);
-            out.transform = upsideDown * turned * upsideDown;
-        } else {
-            out.transform =
-                glm::dmat3(c * scale.x, s * scale.x, 0, -s * scale.y, c * scale.y, 0, offset.x, offset.y, 1);
-        }
+        const glm::dvec2 offset(moved.mTranslation.x, moved.mTranslation.y);
+        out.transform =
+            glm::dmat3(c * scale.x, s * scale.x, 0, -s * scale.y, c * scale.y, 0, offset.x, offset.y, 1);
         for (int column = 0; column < 3; ++column)
             if (!std::isfinite(glm::dot(out.transform[column], glm::dvec3(1)))) out.transform = glm::dmat3(1);
         break;

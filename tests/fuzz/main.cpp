@@ -34,6 +34,7 @@
 #include "scene/placement.h"
 #include "simulate/checkpoint.h"
 #include "simulate/checkpoint_head.h"
+#include "support/gltf_text.h"
 #include "support/scratch.h"
 #include "support/small_scene.h"
 #include "support/vti_text.h"
@@ -268,8 +269,26 @@ Kind meshes() {
         "property int texnumber\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
         "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n"
         "3 0 1 2 6 0 0 1 0 1 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1 1\n5 0 1 2 -1 3\n";
+    GltfText gltf;
+    gltf.points(boxPoints);
+    gltf.indices(boxTriangles);
+    gltf.add(std::vector<uint8_t>(32, 0), "VEC4", 5121, 4);
+    gltf.floats(std::vector<float>(32, 0.25f), "VEC4", 4);
+    gltf.addView(std::vector<uint8_t>{3, 5});
+    gltf.addView(std::vector<float>{2, 2, 0, 1, 0, 1});
+    gltf.addAccessor(0, 8, "VEC3", 5126, R"(, "sparse": {"count": 2, "indices": {"bufferView": 4,
+        "componentType": 5121}, "values": {"bufferView": 5}})");
+    const std::string parts = R"("extensionsUsed": ["EXT_mesh_gpu_instancing", "KHR_x"], "scene": 0,
+        "scenes": [{"nodes": [0, 2]}], "skins": [{"joints": [0, 1]}], "nodes": [{"children": [1]},
+        {"mesh": 0, "skin": 0, "scale": [1, 0.5, -1]}, {"mesh": 0, "rotation": [0, 0, 1, 0], "extensions":
+        {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}], "materials": [{"alphaMode":
+        "BLEND", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}],
+        "images": [{"bufferView": 2}], "meshes": [{"weights": [0.5], "primitives": [{"attributes": {
+        "POSITION": 4, "JOINTS_0": 2, "WEIGHTS_0": 3}, "targets": [{"POSITION": 0}], "indices": 1, "material": 0}]}])";
     return {"meshes",
-            {{"box.obj", obj},
+            {{"box.gltf", gltf.text(parts)},
+             {"box.glb", gltf.binary(parts), false},
+             {"box.obj", obj},
              {"box.off", off},
              {"box.stl", stl},
              {"box.ply", ply},
