@@ -9,9 +9,8 @@ find_package(assimp REQUIRED)
 # lib3mf 1 has no CMake package; 2 has another interface.
 find_path(LIB3MF_INCLUDE Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf REQUIRED)
 find_library(LIB3MF_LIBRARY 3MF REQUIRED)
-add_library(Lib3MF INTERFACE IMPORTED)
-target_include_directories(Lib3MF SYSTEM INTERFACE ${LIB3MF_INCLUDE})
-target_link_libraries(Lib3MF INTERFACE ${LIB3MF_LIBRARY})
+add_library(Lib3MFHeaders INTERFACE IMPORTED)
+target_include_directories(Lib3MFHeaders SYSTEM INTERFACE ${LIB3MF_INCLUDE})
 find_package(Eigen3 REQUIRED NO_MODULE)
 
 # Closest points on models. The headers of 4 go before those of 3 (geometry/closest_point.cpp).

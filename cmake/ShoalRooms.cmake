@@ -49,7 +49,7 @@ function(shoal_room name)
     target_precompile_headers(shoal_${name} REUSE_FROM shoal_precompiled)
     # Header-only packages end at the build; what must be linked reaches whoever links the archive.
     foreach(library ${ROOM_PRIVATE_LIBRARIES})
-      if(library MATCHES "^(RapidJSON|GLHeaders|TinyObjHeader|Eigen3::Eigen)$")
+      if(library MATCHES "^(RapidJSON|GLHeaders|Lib3MFHeaders|TinyObjHeader|Eigen3::Eigen)$")
         set(library $<BUILD_INTERFACE:${library}>)
       endif()
       target_link_libraries(shoal_${name} PRIVATE ${library})
