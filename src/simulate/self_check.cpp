@@ -102,14 +102,20 @@ const Middles& expected(CheckedPart part) {
     return part == CheckedPart::step ? step : contact;
 }
 
-// By what a verdict is known: the driver, the path, the part, and the text of all shaders.
+// By what a verdict is known in this process: the driver, the path, the part, and the folder of the shaders.
 std::string keyOf(const gpu::Context& context, Path path, CheckedPart part) {
     const gpu::ContextInfo& info = context.info();
-    std::string all = concat(gpu::name(info.kind), "\n", info.renderer, "\n", info.vendor, "\n", info.version,
-                             "\n", name(path), "\n", int(part), "\n");
+    return concat(gpu::name(info.kind), "\n", info.renderer, "\n", info.vendor, "\n", info.version, "\n",
+                  name(path), "\n", int(part), "\n", context.shaders());
+}
+
+// By what it is known between runs: that, and the text of all shaders.
+std::string fileKey(const gpu::Context& context, std::string all) {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(context.shaders()))
-        if (entry.is_regular_file()) files.push_back(entry.path());
+    std::error_code code;  // a context without shaders says so when a program is made
+    for (std::filesystem::recursive_directory_iterator at(context.shaders(), code), end; !code && at != end;
+         at.increment(code))
+        if (at->is_regular_file(code)) files.push_back(at->path());
     std::sort(files.begin(), files.end());
     for (const std::filesystem::path& file : files)
         all += readFile(file);
@@ -144,7 +150,7 @@ std::string selfCheck(gpu::Context& context, Path path, CheckedPart part) {
     if (const auto found = known.find(key); found != known.end()) return found->second;
     const std::filesystem::path folder = context.cache().folder();
     const std::filesystem::path file =
-        folder.empty() ? std::filesystem::path() : folder / concat("check-", key, ".txt");
+        folder.empty() ? std::filesystem::path() : folder / concat("check-", fileKey(context, key), ".txt");
     std::error_code code;
     if (!file.empty() && std::filesystem::is_regular_file(file, code)) {
         try {
