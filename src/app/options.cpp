@@ -414,8 +414,9 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         const bool namesOption =
             told.rfind('-', 0) == 0 && (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr ||
                                         dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr);
-        std::string message = namesOption ? takesNoValue(told) : explainExtras(app, argc, argv);
-        if (message.empty()) message = error.what();
+        std::string message = takesNoValue(told);
+        if (message.empty() && !namesOption) message = explainExtras(app, argc, argv);
+        if (message.empty()) message = told;
         throw WrongUse(message + "; see " + nameOf(reached(app)) + " --help");
     }
     try {

@@ -26,26 +26,29 @@ std::map<std::optional<int>, Device*>& devices() {
     return all;
 }
 
-// When a thread ends, the devices that it used are there for the next one.
-struct ThreadEnd {
-    const pid_t process = ::getpid();
+thread_local bool endIsWatched = false;
 
-    ~ThreadEnd() {
-        if (process != ::getpid()) return;  // the driver's threads are not in the child
-        const std::lock_guard lock(devicesGuard);
-        for (const auto& [number, device] : devices()) {
-            if (!device || device->thread != std::this_thread::get_id()) continue;
-            if (device->context.isCurrent()) gpu::leaveCurrent();
-            device->thread = {};
-        }
+// The devices that this thread used are there for the next one.
+void leaveDevices() {
+    const std::lock_guard lock(devicesGuard);
+    for (const auto& [number, device] : devices()) {
+        if (!device || device->thread != std::this_thread::get_id()) continue;
+        if (device->context.isCurrent()) gpu::leaveCurrent();
+        device->thread = {};
     }
-};
+    endIsWatched = false;
+}
 
-// Its context belongs to this thread until the thread ends.
-void take(Device& device) {
-    static thread_local const ThreadEnd end;
-    device.thread = std::this_thread::get_id();
-    (void)end;
+// Leaves the devices when Python clears what it keeps of this thread. A destructor of the thread itself may
+// run after join() has returned in another thread.
+void watchEndOfThread() {
+    if (endIsWatched) return;
+    const py::gil_scoped_acquire locked;
+    const py::capsule end(reinterpret_cast<void*>(intptr_t(::getpid())), [](void* process) {
+        if (intptr_t(process) == ::getpid()) leaveDevices();  // the driver's threads are not in a child
+    });
+    py::reinterpret_borrow<py::dict>(PyThreadState_GetDict())["shoal.devices"] = end;
+    endIsWatched = true;
 }
 
 }  // namespace
@@ -59,7 +62,7 @@ Device& deviceOf(std::optional<int> number) {
         options.device = number;
         if (number) options.kind = gpu::ContextKind::egl;
         device = new Device(options);
-        take(*device);
+        device->thread = std::this_thread::get_id();
     }
     return *device;
 }
@@ -71,12 +74,13 @@ void enter(Device& device) {
             "processes with multiprocessing's \"spawn\", and make it there");
     {
         const std::lock_guard lock(devicesGuard);
-        if (device.thread == std::thread::id()) take(device);
+        if (device.thread == std::thread::id()) device.thread = std::this_thread::get_id();
     }
     if (device.thread != std::this_thread::get_id())
         throw Error(
             "a simulation is used in another thread than the one that made the first on its device, "
             "which has not ended");
+    watchEndOfThread();
     device.context.makeCurrent();
 }
 
