@@ -19,12 +19,7 @@ bool followAnchor()
 }
 
 #ifdef MAY_BE_CUT
-// Returns the place, m, that tells the watchdog (src/simulate/watchdog.cpp) that the loops ended early: they took more
-// turns than Mesa's CPU rasterisers allow (mostSoftwareTurns in src/gpu/context.h).
-vec3 cutShort()
-{
-    return vec3(uintBitsToFloat(0x7f800000u));
-}
+#include "step/cut_short.glsl"
 
 #ifdef MOLECULE_VERTICES
 const int turnsLeft = 64;  // that storing takes
@@ -32,11 +27,20 @@ const int turnsLeft = 64;  // that storing takes
 const int turnsLeft = 0;
 #endif
 
+// Whether the ways among many colliders took more turns of loops than they may, or all loops more than some of Mesa's CPU
+// rasterisers take (mostSoftwareTurns in src/gpu/context.h).
 bool loopsEndEarly()
 {
-    int turns = 0;
-    for (int i = 0; i <= substeps + turnsLeft; ++i) ++turns;  // a loop that Mesa does not write out
-    return turns <= substeps + turnsLeft;
+    bool early = false;
+#ifdef TABLED
+    early = turns > mostTurns;
+#endif
+#ifdef SOFTWARE
+    int taken = 0;
+    for (int i = 0; i <= substeps + turnsLeft; ++i) ++taken;  // a loop that Mesa does not write out
+    early = early || taken <= substeps + turnsLeft;
+#endif
+    return early;
 }
 #endif
 

@@ -3,6 +3,9 @@
 #include "state/textures.glsl"
 #include "passes/load.glsl"
 #include "generated/colliders.glsl"
+#ifdef TABLED
+#include "step/cut_short.glsl"
+#endif
 
 uniform vec3 gravity;  // m/s^2
 #include "step/fall.glsl"
@@ -50,6 +53,9 @@ void main()
 #endif
         x = contact.position;
         v = withoutKick(contact.velocity, v, kick);
+#ifdef TABLED
+        if (turns > mostTurns) x = cutShort();
+#endif
     }
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);

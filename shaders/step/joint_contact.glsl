@@ -89,6 +89,9 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
     bool there = false;
     for (int n = 0; n <= mostMarches; ++n) {
         bool ends = s >= 1.0 || n == mostMarches;
+#ifdef TABLED
+        ends = ends || turns > mostTurns;
+#endif
         at = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
                     ivec3(way.skip.xy, found.which));
         if (ends) break;

@@ -130,7 +130,8 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
             loopOver(kind, base, kind.read, "least.y", concat("least.y = min(least.y, ", distance, ");"));
         out.nearest +=
             loopOver(kind, base, all, "s.others", concat("meetNearest(s, ", touch, ", false, false);"));
-        full += loopOver(kind, base, all, "max(s.swept.distance, 0.0)", meet);
+        full += loopOver(kind, base, all, "max(s.swept.distance, 0.0)", concat("++turns; ", meet)) +
+                concat("    turns += ", clusters(members.size()), ";\n");
         listed += concat("    for (int k = ", number == 0 ? "0" : concat("nearEnds[", number - 1, "]"),
                          "; k < nearEnds[", number, "]; ++k) {\n        int n = nearOnes[k];\n        ",
                          memberText(kind, base + clusters(members.size()), all, meet), "    }\n");
@@ -142,7 +143,11 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
     }
     out.survey = concat(middle, "    if (nearKnown) {\n", listed, "    } else {\n", full, "    }\n");
     out.gather = concat(
-        "#define TABLED\n\n// Which colliders of the table are near: of each kind up to its end, where they "
+        "#define TABLED\n\nint turns = 0;  // of the loops over all, on the ways of this molecule\n#ifdef "
+        "FUSED\nconst int "
+        "mostTurns = ",
+        mostTurns, ";\n#else\nconst int mostTurns = ", mostTurnsOfPass,
+        ";\n#endif\n\n// Which colliders of the table are near: of each kind up to its end, where they "
         "are known.\n",
         "int nearOnes[", mostNear, "];\nint nearEnds[", number,
         "];\nbool nearKnown = false;\nvec3 nearPlace;  // m, where they were looked for, within "

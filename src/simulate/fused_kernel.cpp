@@ -60,8 +60,10 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     };
     define(true, "FUSED");
     define(options.software, "SOFTWARE");
-    // only with such loops can a frame turn more often than a CPU rasteriser takes (gpu/context.h)
-    define(options.software && (plan.longFields || !perLane || (needs.collide && plan.jointContact)),
+    // only with such loops can a frame turn more often than it may (compile/collider_table.h), or than a CPU
+    // rasteriser takes (gpu/context.h)
+    define((needs.collide && plan.colliders.turns > 0) ||
+               (options.software && (plan.longFields || !perLane || (needs.collide && plan.jointContact))),
            "MAY_BE_CUT");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(writesNormals(group, options), "NORMALS");

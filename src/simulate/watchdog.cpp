@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "compile/choose_solver.h"
+#include "compile/collider_table.h"
 #include "compile/pack.h"
 #include "compile/plan.h"
 #include "simulate/simulation.h"
@@ -40,15 +41,19 @@ bool wasHeld(const GroupPlan& group, const GroupState& state, size_t molecule) {
 
 std::string cause(const Plan& plan, const Alarm& alarm) {
     if (alarm.cutShort)
-        return concat("Mesa's rasteriser leaves off after ", gpu::mostSoftwareTurns,
-                      " turns of loops for a molecule and frame, which many colliders, vertices and substeps "
-                      "need. Try fewer --substeps at a higher frameRate, or fewer colliders");
+        return concat(
+            "its ways among many colliders took too many turns of loops: more than ",
+            ColliderTable::mostTurns, " in a frame, or on the ping-pong path ",
+            ColliderTable::mostTurnsOfPass, " in a substep, or more than Mesa's rasteriser takes (",
+            gpu::mostSoftwareTurns,
+            " in a frame). Try fewer --substeps at a higher frameRate, or fewer colliders in one place");
     std::string hasty = hastyForce(plan.forces, plan.groups[alarm.group], 1 / plan.frameRate / plan.substeps);
     constexpr const char* remedy = ". Try more --substeps, another --solver, or smaller numbers";
     if (!hasty.empty()) return hasty + remedy;
     if (!alarm.finite)
-        return concat("the step is too long for something here, or a force is beyond what a float holds",
-                      remedy);
+        return concat("the step is too long for something here, ",
+                      plan.colliders.turns > 0 ? "a way among many colliders was cut short, " : "",
+                      "or a force is beyond what a float holds", remedy);
     return concat("the limit is ", runawaySpeed,
                   " m/s: the step is too long for something here, or a field, a ",
                   "force, drag or start velocity is too large", remedy);

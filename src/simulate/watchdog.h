@@ -39,7 +39,7 @@ struct Alarm {
     size_t group = 0;
     int molecule = 0, vertex = 0;
     bool finite = true;
-    bool cutShort = false;  // by a rasteriser that leaves loops (gpu::mostSoftwareTurns), which shaders mark
+    bool cutShort = false;  // its loops ended early, which shaders mark (shaders/step/cut_short.glsl)
     double speed = 0;       // m/s, where finite
     double time = 0;        // s, of the state that it was found in
     int frame = 0;

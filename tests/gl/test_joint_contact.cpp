@@ -264,7 +264,6 @@ TEST_CASE("verlet: between colliders the velocity is that of the positions, too"
 }
 
 TEST_CASE("however many colliders there are, all substeps of a frame are done", "[contact]") {
-    if (testPath() == Path::pingPong) return;
     // a CPU rasteriser leaves loops after 65,535 turns: 64 substeps of four vertices pass 60 balls, and look
     // again
     Simulation few = amongMany(60), many = amongMany(1000);
@@ -272,10 +271,15 @@ TEST_CASE("however many colliders there are, all substeps of a frame are done", 
     test::run(many, 90);
     CHECK(few.hash() == many.hash());
     CHECK(few.snapshot(0).positions[0].y < 0);
-    if (!testContext().info().software) return;
+}
+
+TEST_CASE("a way among very many colliders in one place ends the run instead of holding the device",
+          "[contact]") {
     Simulation most = amongMany(0, 5000);
-    CHECK_THAT(messageOf([&] { test::run(most, 90), most.check(); }),
-               Catch::Contains("was cut short") && Catch::Contains("fewer colliders"));
+    const std::string message = messageOf([&] { test::run(most, 90), most.check(); });
+    CHECK_THAT(message, Catch::Contains("was cut short"));
+    // where passes go on with the rest of the frame, what was cut short is not finite at its end
+    if (testPath() != Path::pingPong) CHECK_THAT(message, Catch::Contains("fewer colliders"));
 }
 
 TEST_CASE("what a paddle throws further than its own way meets the wall, among many colliders, too",
