@@ -19,27 +19,28 @@ namespace {
 namespace fs = std::filesystem;
 using Placement = ObjMaterials::Placement;
 
-// The keys that each material of a file gives, in their order: the library does not tell a key that is left
-// out from one that is 0.
-std::vector<std::set<std::string>> keysOf(const std::string& text) {
-    std::vector<std::set<std::string>> out(1);
+// What the library does not tell: a key that is left out from one that is 0, and in one of its versions a name
+// with blanks.
+struct Listed {
+    std::string name;
+    std::set<std::string> keys;
+};
+
+// The materials of a file, in their order.
+std::vector<Listed> listed(const std::string& text) {
+    std::vector<Listed> out;
     std::istringstream lines(text);
-    bool any = false;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
         std::string key, value;
         words >> key >> value;
         if (key == "newmtl" && !value.empty()) {
-            if (any)
-                out.emplace_back();
-            else
-                out.back().clear();
-            any = true;
-        } else if (!key.empty() && key[0] != '#') {
+            out.push_back({std::string(trimmed(std::string_view(line).substr(line.find(key) + key.size()))), {}});
+        } else if (!key.empty() && key[0] != '#' && !out.empty()) {
             const bool number = key[0] == 'K' || key == "d" || key == "Tr" || key[0] == 'N' || key[0] == 'P';
             std::vector<double> values;
             if (number && !(readNumbers(value, values) && values.size() == 1)) key = "!" + key;
-            out.back().insert(key);
+            out.back().keys.insert(key);
         }
     }
     return out;
@@ -47,9 +48,8 @@ std::vector<std::set<std::string>> keysOf(const std::string& text) {
 
 class MaterialReader {
   public:
-    MaterialReader(const tinyobj::material_t& from, const std::set<std::string>& keys, ModelImages& images,
-                   Mesh& mesh)
-        : from_(from), keys_(keys), images_(images), mesh_(mesh) {}
+    MaterialReader(const tinyobj::material_t& from, const Listed& listed, ModelImages& images, Mesh& mesh)
+        : from_(from), name_(listed.name), keys_(listed.keys), images_(images), mesh_(mesh) {}
 
     SurfaceMaterial read() {
         SurfaceMaterial out;
@@ -68,7 +68,7 @@ class MaterialReader {
 
   private:
     void note(const std::string& what) {
-        mesh_.notes.push_back(concat("material \"", from_.name, "\": ", what));
+        mesh_.notes.push_back(concat("material \"", name_, "\": ", what));
     }
     bool given(const char* key) const { return keys_.count(key) > 0; }
 
@@ -144,6 +144,7 @@ class MaterialReader {
     }
 
     const tinyobj::material_t& from_;
+    const std::string& name_;
     const std::set<std::string>& keys_;
     ModelImages& images_;
     Mesh& mesh_;
@@ -194,10 +195,10 @@ void ObjMaterials::readLibrary(const std::string& name) {
     std::vector<tinyobj::material_t> materials;
     std::string warning, error;
     tinyobj::LoadMtl(&names, &materials, &stream, &warning, &error);
-    const std::vector<std::set<std::string>> keys = keysOf(text);
-    for (size_t i = 0; i < materials.size() && i < keys.size(); ++i) {
-        if (!numbers_.try_emplace(materials[i].name, int(mesh_.materials.size())).second) continue;
-        MaterialReader reader(materials[i], keys[i], images_, mesh_);
+    const std::vector<Listed> all = listed(text);
+    for (size_t i = 0; i < materials.size() && i < all.size(); ++i) {
+        if (!numbers_.try_emplace(all[i].name, int(mesh_.materials.size())).second) continue;
+        MaterialReader reader(materials[i], all[i], images_, mesh_);
         mesh_.materials.push_back(reader.read());
         placements_.push_back(reader.placement());
     }

@@ -86,7 +86,7 @@ class ObjReader {
         out.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
             self(data).addFace(corners, count);
         };
-        out.usemtl_cb = [](void* data, const char* name, int) { self(data).material_ = name; };
+        out.usemtl_cb = [](void* data, const char* name, int) { self(data).material_ = trimmed(name); };
         out.group_cb = [](void* data, const char** names, int count) {
             std::string all;
             for (int i = 0; i < count; ++i)
