@@ -6,6 +6,7 @@
 // ends it. The file is written at the end, whole or not at all.
 #include <ctime>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "app/bench.h"
@@ -146,7 +147,7 @@ void measureDrawn(const Options& options, const std::vector<NamedFile>& scenes, 
                   std::vector<DrawnTimes>& drawn) {
     if (drawn.empty()) return;
     Progress progress("drawn scenes", int(drawn.size()));
-    std::optional<DrawnScene> scene;
+    std::unique_ptr<DrawnScene> scene;
     std::string loaded;  // the name of it
     for (DrawnTimes& one : drawn) {
         if (signalThatAsked()) return;
@@ -156,7 +157,7 @@ void measureDrawn(const Options& options, const std::vector<NamedFile>& scenes, 
                     return candidate.first == one.scene;
                 });
                 scene.reset();
-                scene.emplace(*file, device);
+                scene = std::make_unique<DrawnScene>(*file, device);
                 loaded = one.scene;
             }
             scene->measure(one, options.quick);

@@ -7,6 +7,7 @@
 #include "core/memory.h"
 #include "core/printable.h"
 #include "run/data_paths.h"
+#include "run/progress.h"
 #include "run/scene_list.h"
 #include "run/signals.h"
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
         if (options) {
             findScenes(*options);
             if (!options->files.empty()) keepToSandbox(*options, options->files.front());
+            const shoal::CompilingWatch compiling;
             code = options->command(*options);
         }
         std::cout.flush();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/contract.h"
+#include "gpu/program.h"
 
 namespace shoal::gpu {
 
@@ -207,6 +208,11 @@ std::vector<PassTime> PassTimers::report() const {
         out.push_back(std::move(time));
     }
     return out;
+}
+
+TimedFrame::~TimedFrame() {
+    timers_.endFrame();
+    endFirstUse();
 }
 
 }  // namespace shoal::gpu

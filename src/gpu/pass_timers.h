@@ -142,7 +142,7 @@ class PrimitiveCounter {
 class TimedFrame {
   public:
     explicit TimedFrame(PassTimers& timers) : timers_(timers) { timers_.beginFrame(); }
-    ~TimedFrame() { timers_.endFrame(); }
+    ~TimedFrame();
     TimedFrame(const TimedFrame&) = delete;
     TimedFrame& operator=(const TimedFrame&) = delete;
 

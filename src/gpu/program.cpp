@@ -1,5 +1,8 @@
 #include "gpu/program.h"
 
+#include <atomic>
+#include <mutex>
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include "core/contract.h"
@@ -116,6 +119,16 @@ GLint storageBinding(GLuint program, const std::string& block) {
 // The program that use() took last, for contracts: asking the driver at each uniform would make it wait.
 GLuint lastUsed = 0;
 
+std::mutex firstGuard;
+std::string first;  // label of the program that is made, or used for the first time
+std::atomic<bool> isFirst = false;
+
+void beginFirstUse(const std::string& label) {
+    const std::lock_guard lock(firstGuard);
+    first = label;
+    isFirst = true;
+}
+
 }  // namespace
 
 Program::Program(Context& context, const ProgramOptions& options)
@@ -135,6 +148,7 @@ Program::Program(Context& context, const ProgramOptions& options)
         for (const std::string& file : stage.source.files)
             if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
+    beginFirstUse(label_);
     if (!context.cache().active()) {
         compileAndLink(id(), stages, options, label_);
     } else {
@@ -149,6 +163,7 @@ Program::Program(Context& context, const ProgramOptions& options)
             context.cache().store(key, id());
         }
     }
+    endFirstUse();
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
@@ -162,6 +177,18 @@ Program::Program(Context& context, const ProgramOptions& options)
 void Program::use() const {
     glUseProgram(id());
     lastUsed = id();
+    if (used_) return endFirstUse();
+    used_ = true;
+    beginFirstUse(label_);
+}
+
+std::string firstUse() {
+    const std::lock_guard lock(firstGuard);
+    return isFirst ? first : "";
+}
+
+void endFirstUse() {
+    isFirst = false;
 }
 
 bool Program::inUse() const {

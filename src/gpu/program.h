@@ -83,11 +83,18 @@ class Program {
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
+    mutable bool used_ = false;
     mutable std::map<GLint, int> units_;                       // by the location of a sampler
     std::set<std::string, std::less<>> declared_;              // uniforms
     std::map<std::string, int, std::less<>> storageBindings_;  // of each storage block
     std::string label_;
 };
+
+// Returns the label of the program that is being made or used for the first time, when rasterisers compile
+// it, for any thread to ask; empty: there is none.
+std::string firstUse();
+// What the driver does from here on is for no program's first use.
+void endFirstUse();
 
 // Programs of one owner by what they are made of: whoever asks for the same gets the same program, under the
 // label of the first. So many equal groups compile once.

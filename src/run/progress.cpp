@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include "core/cache_folder.h"
 #include "core/printable.h"
+#include "gpu/program.h"
 
 namespace shoal {
 
@@ -79,6 +81,38 @@ void FieldWatch::show(double share) {
     if (!bar_ && waited < std::chrono::seconds(1)) return;
     if (!bar_) bar_.emplace("baking a distance field", 100);
     bar_->reach(now);
+}
+
+CompilingWatch::CompilingWatch(std::function<void(const std::string&)> tell,
+                               std::chrono::milliseconds patience)
+    : tell_(std::move(tell)), patience_(patience), thread_([this] { watch(); }) {}
+
+void CompilingWatch::sayThatItCompiles(const std::string& label) {
+    std::fprintf(stderr, "shoal: waiting for the driver, which compiles \"%s\" (its cache keeps that)\n",
+                 printable(label).c_str());
+}
+
+CompilingWatch::~CompilingWatch() {
+    {
+        const std::lock_guard lock(guard_);
+        ends_ = true;
+    }
+    end_.notify_all();
+    thread_.join();
+}
+
+void CompilingWatch::watch() {
+    std::string last;
+    std::set<std::string> told;
+    Clock::time_point since;
+    std::unique_lock lock(guard_);
+    while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; })) {
+        const std::string now = gpu::firstUse();
+        if (now != last) since = Clock::now();
+        if (!now.empty() && now == last && Clock::now() - since >= patience_ && told.insert(now).second)
+            tell_(now);
+        last = now;
+    }
 }
 
 std::string roughly(double seconds) {

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -42,6 +46,27 @@ class FieldWatch {
     std::optional<Progress> bar_;
     int last_ = 0;  // hundredths
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Tells, of each program once, its label, while this lives and the driver has been compiling it for so long.
+class CompilingWatch {
+  public:
+    explicit CompilingWatch(std::function<void(const std::string&)> tell = sayThatItCompiles,
+                            std::chrono::milliseconds patience = std::chrono::seconds(2));
+    ~CompilingWatch();
+    CompilingWatch(const CompilingWatch&) = delete;
+    CompilingWatch& operator=(const CompilingWatch&) = delete;
+
+  private:
+    static void sayThatItCompiles(const std::string& label);  // on stderr
+    void watch();
+
+    std::function<void(const std::string&)> tell_;
+    std::chrono::milliseconds patience_;
+    std::mutex guard_;
+    std::condition_variable end_;
+    bool ends_ = false;
+    std::thread thread_;
 };
 
 // "3 s", "12 minutes": an estimate for people.

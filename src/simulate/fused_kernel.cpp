@@ -100,8 +100,6 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     if (needs.collide && contact && !births)
         for (const std::string& one : contact->defines())
             out.push_back(one);
-    constexpr int few = 16;  // vertices, which are chosen from registers (fused/contact.glsl)
-    define(needs.collide && perLane && group.vertexCount <= few, "FEW_VERTICES");
     define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (needs.life) defineLife(*group.life, births, out);

@@ -1,10 +1,13 @@
 #include "gpu/program.h"
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
 #include "gl/gl_test.h"
 #include "gpu/framebuffer.h"
+#include "run/progress.h"
 #include "support/catch.h"
 
 using namespace shoal::gpu;
@@ -35,6 +38,27 @@ static std::vector<float> draw(const Program& program, const std::vector<ColorTa
     texels.resize(4);
     testContext().checkErrors("drawing");
     return texels;
+}
+
+TEST_CASE("what the driver compiles for long is told once, by its label", "[program]") {
+    using namespace std::chrono_literals;
+    const Program program(testContext(),
+                          withFragment("out vec4 color;\nvoid main() { color = vec4(1.0); }\n"));
+    const Program other(testContext(), withFragment("out vec4 color;\nvoid main() { color = vec4(2.0); }\n"));
+    std::vector<std::string> told;
+    {
+        const shoal::CompilingWatch watch([&](const std::string& label) { told.push_back(label); }, 40ms);
+        program.use();  // for the first time, and then it does not end for long
+        std::this_thread::sleep_for(400ms);
+        program.use();
+        std::this_thread::sleep_for(200ms);
+        CHECK(firstUse().empty());
+    }
+    CHECK(told == std::vector<std::string>{"test"});
+    other.use();
+    CHECK(firstUse() == "test");
+    endFirstUse();
+    CHECK(firstUse().empty());
 }
 
 TEST_CASE("uniforms of every kind arrive", "[program]") {

@@ -377,7 +377,8 @@ for c in classes:
         else:
             raise SystemExit(f"{c.__name__}.{name} did not raise")
     for name, member in vars(c).items():
-        if isinstance(member, property) or callable(member) and name not in ("__init__", "__new__"):
+        ours = name not in ("__init__", "__new__", "_pybind11_conduit_v1_")
+        if isinstance(member, property) or callable(member) and ours:
             assert (c, name) in told, (c, name)
 for use in (lambda: shoal.Simulation(shoal.Scene.__new__(shoal.Scene)), lambda: shoal.measure(shoal.Scene.__new__(shoal.Scene)),
             lambda: shoal.Scene({"groups": [{"molecule": shoal.Molecule.__new__(shoal.Molecule)}]})):

@@ -286,7 +286,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
     CHECK(definesOf(sceneOf(test::point(1))) == with({"RECORDS"}));
     CHECK(definesOf(sceneOf(test::leaf(100, 1))) == with({"RECORDS", "SPRINGS"}));
     const Set all = with({"RECORDS", "RELEASE", "PINS", "SPRINGS", "MUSCLES", "CONSTANTS", "FIELDS",
-                          "DIRECTIONAL_DRAG", "COLLIDE", "FEW_VERTICES"});
+                          "DIRECTIONAL_DRAG", "COLLIDE"});
     CHECK(definesOf(fullScene()) == all);
 
     struct Case {
