@@ -42,6 +42,8 @@ mount --bind "$cache/packages-$suite" "$root/var/cache/apt/archives"
 mount --bind "$cache/compiled-$suite" "$root/root/.cache/ccache"
 printf 'Binary::apt::APT::Keep-Downloaded-Packages "1";\nAPT::Keep-Downloaded-Packages "1";\n' \
     >"$root/etc/apt/apt.conf.d/01keep"
+# A mirror may lag behind.
+printf 'Acquire::Check-Valid-Until "false";\n' >"$root/etc/apt/apt.conf.d/01late"
 rm -f "$root/etc/apt/apt.conf.d/docker-clean"
 cp /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
 for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -f "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
