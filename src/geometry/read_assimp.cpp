@@ -166,7 +166,7 @@ class Collector {
 };
 
 // The files that a model consists of. A device has no end, and a pipe would wait for ever.
-class ModelFiles : public Assimp::DefaultIOSystem {
+class ModelFiles : public Assimp::IOSystem {
   public:
     explicit ModelFiles(std::function<void(uint64_t)> opened) : opened_(std::move(opened)) {}
 
@@ -181,10 +181,13 @@ class ModelFiles : public Assimp::DefaultIOSystem {
         const FileReader readable(file);  // one that is sparse is refused
         const uint64_t bytes = std::filesystem::file_size(file, code);
         if (!code && seen_.insert(file).second) opened_(bytes);
-        return DefaultIOSystem::Open(file, mode);
+        return files_.Open(file, mode);
     }
+    void Close(Assimp::IOStream* file) override { files_.Close(file); }
+    char getOsSeparator() const override { return files_.getOsSeparator(); }
 
   private:
+    Assimp::DefaultIOSystem files_;
     std::function<void(uint64_t)> opened_;
     std::set<std::string> seen_;
 };
