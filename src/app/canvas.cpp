@@ -67,7 +67,12 @@ const Letters& letters() {
 }
 
 const ImFontGlyph* glyphOf(char c) {
-    return letters().font->FindGlyph(ImWchar(static_cast<unsigned char>(c)));
+    const ImWchar code = static_cast<unsigned char>(c);
+#if IMGUI_VERSION_NUM >= 19200
+    return letters().font->GetFontBaked(letters().font->LegacySize)->FindGlyph(code);
+#else
+    return letters().font->FindGlyph(code);
+#endif
 }
 
 }  // namespace

@@ -85,8 +85,10 @@ void Interface::makeFont(const Density& density) {
     io.Fonts->Clear();
     io.Fonts->AddFontDefault(&font);
     io.FontGlobalScale = 1 / density.pixelsPerUnit;
+#if IMGUI_VERSION_NUM < 19200  // later ones make it as they need it
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
 }
 
 float points(float count) {

@@ -56,7 +56,7 @@ bool SceneChooser::drawRow(const ListedScene& scene) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(at.x + size.x, at.y + size.y);
     if (const gpu::Texture* picture = pictureOf(scene.file))
-        list.AddImage(reinterpret_cast<ImTextureID>(size_t(picture->id())), at, end);
+        list.AddImage(ImTextureID(intptr_t(picture->id())), at, end);
     else
         list.AddRectFilled(at, end, IM_COL32(70, 76, 82, 255));
     ImGui::SetCursorScreenPos(ImVec2(end.x + points(10), at.y));
