@@ -348,12 +348,14 @@ static void declare(CLI::App& app, Options& options) {
         "wrong.");
     // The installation is made with the first two (cmake/ShoalInstall.cmake), docs/command.md with the last.
     const auto document = [&app](const char* flag, std::string (*write)(const CLI::App&)) {
-        app.add_flag_callback(flag,
-                              [&app, write] {
-                                  std::cout << write(app);
-                                  throw CLI::Success();
-                              })
-            ->group("");
+        CLI::Option* option = app.add_flag_callback(flag, [&app, write] {
+            std::cout << write(app);
+            throw CLI::Success();
+        });
+        option->group("");
+#if CLI11_VERSION_MAJOR > 2 || CLI11_VERSION_MINOR >= 6  // where a command is missed before flags are called
+        option->callback_priority(CLI::CallbackPriority::First);
+#endif
     };
     holdToOneValue(app);
     document("--man-page", manPage);
