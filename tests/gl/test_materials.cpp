@@ -96,7 +96,9 @@ TEST_CASE("a cut material has holes, and so has its shadow", "[render][material]
     CHECK(brightness(at(without, -1, 1)) > 500);
     CHECK(strongest(at(without, 1, 1), 1));
 
-    // Seen from the side of the wall behind, which the sun reaches through the hole alone.
+    // Seen from the side of the wall behind, which the sun reaches through the hole alone. The map of shadows
+    // that is finest is about the molecules.
+    scene.groups[0].place.items[0].position = {0, 0, -0.6};
     scene.light.direction = {0, 0, -1};
     scene.light.shadows = true;
     scene.camera.eye = {1.6, 0, 0};
@@ -105,6 +107,31 @@ TEST_CASE("a cut material has holes, and so has its shadow", "[render][material]
     scene.models[0].mesh.images[0] = fourColors();
     const Image shaded = show(scene).image;
     CHECK(changed(lit, shaded, 60).count > 20);
+}
+
+TEST_CASE("a blended material's shadow is as strong as its opacity", "[render][material]") {
+    SurfaceMaterial white, glass;
+    glass.alpha = Alpha::blend;
+    Scene scene = sceneOf({wall(glass, {}), wall(white, {}, -0.4)});
+    scene.groups[0].place.items[0].position = {0, 0, -0.6};
+    scene.light.direction = {0, 0, -1};
+    scene.light.shadows = true;
+    scene.camera.eye = {2, 0, 0.3};
+    scene.camera.target = {0, 0, -0.4};
+    std::vector<double> light;
+    for (const double opacity : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        scene.models[0].mesh.materials[0].color = {0, 0, 0, opacity};
+        const Image image = show(scene).image;
+        double sum = 0;
+        for (int x = -4; x <= 4; ++x)
+            for (int y = -4; y <= 4; ++y)
+                sum += brightness(pixel(image, 80 + x, 60 + y));
+        light.push_back(sum / 81);
+    }
+    INFO(light[0] << " " << light[1] << " " << light[2] << " " << light[3] << " " << light[4]);
+    CHECK(light[4] < 0.7 * light[0]);
+    for (size_t i = 1; i < light.size(); ++i)
+        CHECK(light[i] < light[i - 1] - 0.03 * (light[0] - light[4]));
 }
 
 TEST_CASE("a blended material shows what is behind it, from whichever side", "[render][material]") {
