@@ -98,10 +98,12 @@ class TextureExport {
     // False: a signal asked for the end before all frames were there, and nothing is written.
     bool run() {
         const int frames = options_.frames + options_.loop;
+        Progress progress("frames", frames);
         for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
             if (frame > 0) simulation_.frame();
             simulation_.check();
             add(simulation_.snapshot(index_), frame);
+            progress.step();
         }
         if (signalThatAsked()) return false;
         writeAll();

@@ -188,10 +188,12 @@ class UsdCollider {
 };
 
 void eachFrame(Simulation& simulation, int frames, const auto& look) {
+    Progress progress("frames", frames);
     for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
         if (frame > 0) simulation.frame();
         simulation.check();
         look(frame);
+        progress.step();
     }
 }
 

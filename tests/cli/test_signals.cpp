@@ -239,6 +239,20 @@ TEST_CASE("Ctrl-C leaves a whole stage of clips", "[cli][signals]") {
     CHECK(filesIn(scratch.path("clips/frames")).size() == size_t(last) + 1);  // and what they hold
 }
 
+TEST_CASE("Ctrl-C leaves nothing of an animation texture", "[cli][signals]") {
+    const Scratch scratch;
+    StartedShoal started(
+        {"export", squaresScene(), "--frames", "8000", "--substeps", "64", "--vat", scratch.path("vat")});
+    started.waitForError(" of 8000");
+    started.send(SIGINT);
+    const Outcome outcome = started.finish();
+    INFO(outcome.err);
+    CHECK(outcome.signal == SIGINT);
+    CHECK(stoppedAfter(outcome) < 8000);
+    CHECK_THAT(outcome.err, Catch::Contains("; nothing is written"));
+    CHECK_FALSE(std::filesystem::exists(scratch.path("vat")));
+}
+
 TEST_CASE("whatever is stopped says so in one line", "[cli][signals]") {
     const Scratch scratch;
     StartedShoal bench({"bench", "--quick"}, {.folder = scratch.folder().string()});

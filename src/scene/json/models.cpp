@@ -94,7 +94,8 @@ const Description& describe(const Model*) {
                         "A mesh that stands still: it is drawn, carries molecules, and makes colliders.")
             .byHand("file", {.notEmpty = true},
                     {"the name of a file",
-                     "OBJ, XYZ (points), or any format that Assimp reads, within [limits of time and "
+                     "OBJ, PLY, glTF, 3MF, XYZ (points), or any format that Assimp reads, within [limits of "
+                     "time and "
                      "memory](architecture.md#errors); transforms of nodes are applied, "
                      "and vertices are welded by position. [Materials](#materials-of-models) come with it."},
                     readFileOf)
