@@ -1,7 +1,9 @@
 #include "python/scene.h"
 
+#include "core/cache_folder.h"
 #include "core/file.h"
 #include "molecule/molecule_file.h"
+#include "python/simulation.h"
 #include "run/scene_list.h"
 #include "scene/json/scene_file.h"
 
@@ -57,6 +59,10 @@ class MoleculeFiles {
     int count_ = 0;
 };
 
+FieldBaking bakingThatEnds(SignalWatch& watch) {
+    return {cacheFolder(), [&watch](double) { watch.look(); }};
+}
+
 }  // namespace
 
 PyMolecule moleculeFrom(const py::object& source) {
@@ -80,8 +86,9 @@ py::array_t<double> restPositions(const PyMolecule& self) {
 PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder) {
     if (!py::isinstance<py::dict>(source)) {
         const std::string word = pathOf(source, "a scene is a file, a name or a dict").string();
+        SignalWatch watch;
         const py::gil_scoped_release release;
-        return {readScene(needScene(word))};
+        return {readScene(needScene(word), bakingThatEnds(watch))};
     }
     MoleculeFiles files;
     py::dict whole = source.attr("copy")();
@@ -104,8 +111,9 @@ PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder)
         whole["groups"] = groups;
     }
     const std::string text = jsonOf(whole), file = (folder / "<scene>").string();
+    SignalWatch watch;
     const py::gil_scoped_release release;
-    return {parseScene(text, file)};
+    return {parseScene(text, file, bakingThatEnds(watch))};
 }
 
 }  // namespace shoal::python

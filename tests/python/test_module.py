@@ -284,6 +284,16 @@ def test_an_interrupt_ends_a_long_call(hello):
         shoal.measure(shoal.Scene("hello"), duration=20)
 
 
+def test_an_interrupt_ends_the_baking_of_a_field(monkeypatch, tmp_path):
+    monkeypatch.setenv("SHOAL_CACHE", str(tmp_path))
+    model = {"file": str(ROOT / "models/tree/tree.obj"), "name": "tree"}
+    field = {"type": "distanceField", "model": "tree", "resolution": 280, "name": "field"}
+    threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        pairs(models=[model], colliders=[field])
+    assert not [file for file in tmp_path.rglob("*") if file.is_file()]  # it did not come to its end
+
+
 def test_what_has_run_away_is_not_saved(tmp_path):
     with shoal.Simulation(pairs()) as simulation:
         simulation.set_state(0, velocities=np.full((1, 2, 3), 1e6))
