@@ -1,6 +1,7 @@
 #include "geometry/announced.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "core/file.h"
@@ -53,13 +54,45 @@ std::optional<size_t> trianglesOfStl(const std::string& text) {
     return triangles;
 }
 
+// What an animation repeats of a mesh is no triangle more.
+std::optional<size_t> trianglesOfAse(const std::string& text) {
+    if (text.find('\0') != std::string::npos || text.find("*MESH_ANIMATION") != std::string::npos)
+        return std::nullopt;
+    std::istringstream in(text);
+    size_t triangles = 0;
+    for (std::string line, word; std::getline(in, line);)
+        if (std::istringstream(line) >> word && word == "*MESH_FACE") ++triangles;
+    return triangles;
+}
+
+// The first four bits of a surface are 0 for a polygon, else it is a line. An object that is to be subdivided
+// has more triangles than its text.
+std::optional<size_t> trianglesOfAc(const std::string& text) {
+    if (!text.starts_with("AC3D")) return std::nullopt;
+    std::istringstream in(text);
+    size_t triangles = 0;
+    bool isPolygon = false;
+    for (std::string line, word; std::getline(in, line);) {
+        std::istringstream words(line);
+        if (!(words >> word)) continue;
+        if (word == "subdiv") return std::nullopt;
+        if (word == "SURF" && words >> word) isPolygon = std::strtoul(word.c_str(), nullptr, 0) % 16 == 0;
+        size_t corners = 0;
+        if (line.starts_with("refs ") && words >> corners && isPolygon && corners > 2)
+            triangles += corners - 2;
+    }
+    return triangles;
+}
+
 }  // namespace
 
 std::optional<size_t> announcedTriangles(const std::string& file) {
     const std::string ending = lowerExtension(file);
-    if (ending != ".off" && ending != ".stl") return std::nullopt;
+    if (ending != ".off" && ending != ".stl" && ending != ".ase" && ending != ".ac") return std::nullopt;
     const std::string text = readFile(file);
     if (ending == ".stl") return trianglesOfStl(text);
+    if (ending == ".ase") return trianglesOfAse(text);
+    if (ending == ".ac") return trianglesOfAc(text);
     std::istringstream in(text);
     return trianglesOfOff(in);
 }

@@ -331,6 +331,28 @@ TEST_CASE("what a text says of its triangles is held against what was read", "[m
         "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
         "endfacet\n";
     CHECK(loss("m.stl", "solid a\n" + facet + facet + "endsolid a\n") == "");
+    const std::string surface = "SURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n";
+    const auto ac = [&](int count) {
+        return concat(
+            "AC3Db\nMATERIAL \"\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\n"
+            "kids 1\nOBJECT poly\nname \"a\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf ",
+            count, "\n", surface, surface, "kids 0\n");
+    };
+    CHECK(loss("m.ac", ac(2)) == "");
+    CHECK_THAT(loss("m.ac", ac(1)),
+               Catch::Contains("m.ac: its text has 2 triangles, and its reader gives 1"));
+    const auto ase = [&](int count) {
+        return concat(
+            "*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*MESH {\n*MESH_NUMVERTEX 4\n"
+            "*MESH_NUMFACES ",
+            count,
+            "\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0 0 0\n*MESH_VERTEX 1 1 0 0\n"
+            "*MESH_VERTEX 2 0 1 0\n*MESH_VERTEX 3 1 1 0\n}\n*MESH_FACE_LIST {\n"
+            "*MESH_FACE 0: A: 0 B: 1 C: 2\n*MESH_FACE 1: A: 1 B: 3 C: 2\n}\n}\n}\n");
+    };
+    CHECK(loss("m.ase", ase(2)) == "");
+    CHECK_THAT(loss("m.ase", ase(1)),
+               Catch::Contains("m.ase: its text has 2 triangles, and its reader gives 1"));
     CHECK(loss("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n") == "");
     const std::string corners = "0 0 0\n1 0 0\n1 1 0\n";
     CHECK_THAT(loss("m.off", "OFF\n3 2 0\n" + corners + "# two\n3 0 1 2\n\n3 2 1 0\n"),
