@@ -37,7 +37,7 @@ bool loopsEndEarly()
 #endif
 #ifdef SOFTWARE
     int taken = 0;
-    for (int i = 0; i <= substeps + turnsLeft; ++i) ++taken;  // a loop that Mesa does not write out
+    while (taken <= substeps + turnsLeft) ++taken;  // Mesa does not write it out; a `for` of it hangs the linker of 26.2
     early = early || taken <= substeps + turnsLeft;
 #endif
     return early;

@@ -1,9 +1,11 @@
 #include "run/progress.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <set>
@@ -102,6 +104,9 @@ CompilingWatch::~CompilingWatch() {
 }
 
 void CompilingWatch::watch() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are the main thread's
     std::string last;
     std::set<std::string> told;
     Clock::time_point since;
