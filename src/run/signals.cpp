@@ -19,7 +19,7 @@ namespace {
 
 // A handler may touch these, and any thread may run it.
 std::atomic<int> asked = 0;
-std::atomic<bool> finishes = false;
+std::atomic<bool> finishes = false, ends = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 bool onTerminal = false;  // there the line has begun, with a bar and ^C
@@ -33,6 +33,7 @@ void onSignal(int signal) {
     int none = 0;
     if (onTerminal) say("\n");
     if (!finishes || !asked.compare_exchange_strong(none, signal)) {
+        if (ends.exchange(true)) ::pause();  // another thread is at it
         const char digits[] = {char('0' + signal / 10), char('0' + signal % 10)};
         say("shoal: stopped by signal ");
         say(std::string_view(digits + (signal < 10), signal < 10 ? 1 : 2));

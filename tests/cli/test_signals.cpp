@@ -256,9 +256,10 @@ TEST_CASE("Ctrl-C leaves nothing of an animation texture", "[cli][signals]") {
 TEST_CASE("whatever is stopped says so in one line", "[cli][signals]") {
     const Scratch scratch;
     StartedShoal bench({"bench", "--quick"}, {.folder = scratch.folder().string()});
-    bench.waitForError("This takes about");
+    bench.waitForError(" s.\n");
     bench.send(SIGTERM);
     const Outcome outcome = bench.finish();
+    INFO(outcome.out << outcome.err);
     CHECK(outcome.signal == SIGTERM);
     CHECK(outcome.messages() ==
           std::vector<std::string>{"shoal: stopped by signal 15; what was not whole is removed"});
