@@ -185,6 +185,9 @@ void holdToOneValue(CLI::App& command) {
         }
         option->check(aValue);
         if (option->nonpositional()) option->allow_extra_args(false);
+#if CLI11_VERSION_MAJOR > 2 || CLI11_VERSION_MINOR >= 6  // a wrong value is told before what else is needed
+        option->callback_priority(CLI::CallbackPriority::PreRequirementsCheck);
+#endif
     }
     for (CLI::App* below : command.get_subcommands([](CLI::App*) { return true; }))
         holdToOneValue(*below);

@@ -17,6 +17,8 @@ namespace {
 std::string inOurWords(const std::string& signature) {
     static const std::pair<std::regex, const char*> words[] = {
         {std::regex(R"(typing\.|collections\.abc\.|shoal\.)"), ""},
+        {std::regex(R"(SupportsInt \| SupportsIndex)"), "int"},
+        {std::regex(R"(SupportsFloat \| SupportsIndex)"), "float"},
         {std::regex(R"(Annotated\[[Ll]ist\[float\], FixedSize\(3\)\]|[Ll]ist\[float\[3\]\])"),
          "three floats"},
         {std::regex(R"(numpy\.ndarray\[numpy\.float64[^\]]*\])"), "array of floats"},
