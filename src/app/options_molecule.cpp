@@ -48,7 +48,8 @@ void addMaking(CLI::App& command, Options& options) {
 void addFromMesh(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     FromMesh& make = molecule.fromMesh;
-    addFile(command, "mesh", options.files, "Mesh as OBJ, PLY, glTF or 3MF, or of any format that Assimp reads")
+    addFile(command, "mesh", options.files,
+            "Mesh as OBJ, PLY, glTF or 3MF, or of any format that Assimp reads")
         ->required()
         ->expected(1);
     addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written")

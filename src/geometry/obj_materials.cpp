@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Placement = ObjMaterials::Placement;
 
-// What the library does not tell: a key that is left out from one that is 0, and in one of its versions a name
-// with blanks.
+// What the library does not tell: a key that is left out from one that is 0, and in one of its versions a
+// name with blanks.
 struct Listed {
     std::string name;
     std::set<std::string> keys;
@@ -35,7 +35,8 @@ std::vector<Listed> listed(const std::string& text) {
         std::string key, value;
         words >> key >> value;
         if (key == "newmtl" && !value.empty()) {
-            out.push_back({std::string(trimmed(std::string_view(line).substr(line.find(key) + key.size()))), {}});
+            out.push_back(
+                {std::string(trimmed(std::string_view(line).substr(line.find(key) + key.size()))), {}});
         } else if (!key.empty() && key[0] != '#' && !out.empty()) {
             const bool number = key[0] == 'K' || key == "d" || key == "Tr" || key[0] == 'N' || key[0] == 'P';
             std::vector<double> values;
@@ -67,9 +68,7 @@ class MaterialReader {
     Placement placement() const { return placement_.value_or(Placement{}); }
 
   private:
-    void note(const std::string& what) {
-        mesh_.notes.push_back(concat("material \"", name_, "\": ", what));
-    }
+    void note(const std::string& what) { mesh_.notes.push_back(concat("material \"", name_, "\": ", what)); }
     bool given(const char* key) const { return keys_.count(key) > 0; }
 
     static std::optional<double> share(double value) {

@@ -23,7 +23,8 @@ class GlfwSession {
   public:
     GlfwSession() {
 #ifdef GLFW_PLATFORM  // 3.4
-        // Wayland cannot be reached without the folder of its sockets, and its library would say so on stderr.
+        // Wayland cannot be reached without the folder of its sockets, and its library would say so on
+        // stderr.
         if (environment("XDG_RUNTIME_DIR").empty() && glfwPlatformSupported(GLFW_PLATFORM_X11) == GLFW_TRUE)
             glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
