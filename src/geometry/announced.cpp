@@ -44,25 +44,28 @@ std::optional<size_t> trianglesOfOff(std::istream& in) {
     return triangles;
 }
 
+size_t linesThatBeginWith(const char* keyword, const std::string& text) {
+    std::istringstream in(text);
+    size_t count = 0;
+    for (std::string line, word; std::getline(in, line);)
+        if (std::istringstream(line) >> word && word == keyword) ++count;
+    return count;
+}
+
+bool isBinary(const std::string& text) {
+    return text.find('\0') != std::string::npos;
+}
+
 // A binary file may begin with "solid", too: its bytes are no text.
 std::optional<size_t> trianglesOfStl(const std::string& text) {
-    if (!text.starts_with("solid") || text.find('\0') != std::string::npos) return std::nullopt;
-    std::istringstream in(text);
-    size_t triangles = 0;
-    for (std::string line, word; std::getline(in, line);)
-        if (std::istringstream(line) >> word && word == "facet") ++triangles;
-    return triangles;
+    if (!text.starts_with("solid") || isBinary(text)) return std::nullopt;
+    return linesThatBeginWith("facet", text);
 }
 
 // What an animation repeats of a mesh is no triangle more.
 std::optional<size_t> trianglesOfAse(const std::string& text) {
-    if (text.find('\0') != std::string::npos || text.find("*MESH_ANIMATION") != std::string::npos)
-        return std::nullopt;
-    std::istringstream in(text);
-    size_t triangles = 0;
-    for (std::string line, word; std::getline(in, line);)
-        if (std::istringstream(line) >> word && word == "*MESH_FACE") ++triangles;
-    return triangles;
+    if (isBinary(text) || text.find("*MESH_ANIMATION") != std::string::npos) return std::nullopt;
+    return linesThatBeginWith("*MESH_FACE", text);
 }
 
 // The first four bits of a surface are 0 for a polygon, else it is a line. An object that is to be subdivided
