@@ -98,13 +98,7 @@ class TextureExport {
     // False: a signal asked for the end before all frames were there, and nothing is written.
     bool run() {
         const int frames = options_.frames + options_.loop;
-        Progress progress("frames", frames);
-        for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
-            if (frame > 0) simulation_.frame();
-            simulation_.check();
-            add(simulation_.snapshot(index_), frame);
-            progress.step();
-        }
+        eachFrame(simulation_, frames, [&](int frame) { add(simulation_.snapshot(index_), frame); });
         if (signalThatAsked()) return false;
         writeAll();
         for (const Part& part : parts_) {
@@ -369,6 +363,16 @@ std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan
                     std::round(100 * residual / size),
                     " % of their size; without --rigid, or of USD with --rigid-within, every vertex is "
                     "written")}};
+}
+
+void eachFrame(Simulation& simulation, int frames, const std::function<void(int frame)>& look) {
+    Progress progress("frames", frames);
+    for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
+        if (frame > 0) simulation.frame();
+        simulation.check();
+        look(frame);
+        progress.step();
+    }
 }
 
 // False: a signal came before there was anything to write.

@@ -1,6 +1,7 @@
 // Shared by the exports of `shoal export`.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,9 @@ inline std::vector<exchange::MoleculeState> livingIn(const Snapshot& state) {
 
 // Warns where --rigid leaves vertices off (m) by more than a twentieth of a molecule's size.
 std::vector<Warning> warningsOfBending(const Group& group, const GroupPlan& plan, double residual);
+
+// Looks at so many frames, the first as it is, and shows how far it is, until a signal asks for the end.
+void eachFrame(Simulation& simulation, int frames, const std::function<void(int frame)>& look);
 
 // Runs the simulation for --frames, or until a signal asks for the end, and writes all that is drawn as USD
 // (export_usd.cpp); says what. False: the signal came before the first frame, and nothing is written.

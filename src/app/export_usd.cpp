@@ -187,16 +187,6 @@ class UsdCollider {
     std::optional<size_t> number_;  // nothing: it stands still, or is not drawn
 };
 
-void eachFrame(Simulation& simulation, int frames, const auto& look) {
-    Progress progress("frames", frames);
-    for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
-        if (frame > 0) simulation.frame();
-        simulation.check();
-        look(frame);
-        progress.step();
-    }
-}
-
 // Which groups are to be instances. Where a bound is given all frames are run once before they are written.
 std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
     const std::vector<GroupPlan>& plans = simulation.plan().groups;
