@@ -15,7 +15,8 @@ vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, 
 // angle: rad, of the rate when the time begins; phase: rad, of the molecule.
 float musclePull(vec3 muscle, float angle, float time, float phase)
 {
-    return muscle.x * sin(muscle.y * time + (muscle.z + angle) + phase);
+    // What changes comes last: compilers may add constants first, and do so here in one form of a kernel alone.
+    return muscle.x * sin(muscle.z + angle + phase + muscle.y * time);
 }
 
 // Returns a rest length, m, that a muscle lengthens by a share, and a body's bend by another.
