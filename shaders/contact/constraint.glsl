@@ -22,9 +22,6 @@ Constraint constraintOf(vec4 along, vec4 amounts)
 // alone has its impulse at once.
 const float overRelaxed = 1.3;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
-// What rests may overlap by so much of the sum of the radii. If it were pushed apart to the last, it would lose touch with what else
-// it lies on, and fall back onto that at the speed at which a contact may close, in every step.
-const float restingOverlap = 0.005;
 
 // m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps too much.
 float partingSpeed(float depth, float reach)

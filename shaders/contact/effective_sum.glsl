@@ -12,11 +12,6 @@ uniform samplerBuffer contactSums;   // two texels a slot
 #define contactTexel(slot, k) texelFetch(contactSums, 2 * (slot) + (k))
 #endif
 
-bool touches(int sphere)
-{
-    return (fetch(counts, slotOf(sphere)).x & CONTACTS) != 0u;
-}
-
 ContactSum contactsOf(int sphere)
 {
     int slot = slotOf(sphere);
@@ -46,7 +41,7 @@ float effectiveSum(int moleculeSphere)
         a += sum;
         b += turned;
         d += arm * turned;
-        any = any || touches(moleculeSphere + j);
+        any = any || (fetch(counts, slotOf(moleculeSphere + j)).x & CONTACTS) != 0u;
     }
     if (!any) return 0.0;
     mat3 perInertia = body.perInertia / body.perMass;
@@ -64,7 +59,7 @@ float countOf(int vertex, int moleculeSphere)
 // Returns it for sphere k of the molecule whose first is `moleculeSphere`.
 float effectiveSum(int moleculeSphere, int k)
 {
-    if (!touches(moleculeSphere + k)) return 0.0;
+    if ((fetch(counts, slotOf(moleculeSphere + k)).x & ~RESPONDS) == 0u) return 0.0;
     vec4 shape = shapeOf(k);
     float most = countOf(k < VERTICES ? k : int(shape.x), moleculeSphere);
     if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));

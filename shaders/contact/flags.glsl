@@ -1,5 +1,4 @@
-// A slot's count of contacts has two flags. HELD: its molecule is a rigid body, which a collider near this sphere may hold while
-// others push it elsewhere. RESPONDS: it takes part in the response, as it does with contacts, where it is held, and in the step
+// A slot's count of contacts has two flags. HELD: a collider holds it, which its step has not answered (contact/touch.glsl). RESPONDS: it takes part in the response, as it does with contacts, where it is held, and in the step
 // after, because what contacts remember has acted on it since (contact/respond.glsl). Neither is the sign bit: Mesa 25 compares an
 // integer without its sign with 0 as if it were a float, for which small integers are 0 as well.
 const uint CONTACTS = 0x1fffffffu;

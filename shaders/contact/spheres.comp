@@ -67,7 +67,7 @@ void main()
     newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), weightBits(own));
     newCells[sphere] = uvec4(uvec3(place.cell), radius);
 #ifdef WALLS
-    Wall near[MOST_WALLS] = nearWalls(own);
+    Wall near[MOST_WALLS] = nearWalls(own, lane - molecule * SPHERES);
     for (int k = 0; k < MOST_WALLS; ++k) {
         newWalls[2 * (MOST_WALLS * sphere + k)] = vec4(near[k].normal, near[k].gap);
         newWalls[2 * (MOST_WALLS * sphere + k) + 1] = vec4(near[k].velocity, near[k].friction);

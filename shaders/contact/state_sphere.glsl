@@ -110,34 +110,36 @@ CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 #include "generated/colliders.glsl"
 #include "contact/walls.glsl"
 
-float gapTo(float distance)
+// The step has answered what colliders do to vertices, but to those of a rigid body, and not to triangles.
+bool colliderIsAnswered(int k)
 {
 #ifdef RIGID
-    return distance;
+    return false;
 #else
-    return max(distance, 0.0);  // the step has answered it
+    return k < VERTICES;
 #endif
 }
 
 // The colliders that the sphere may press on within the step, the nearest first.
-Wall[MOST_WALLS] nearWalls(StateSphere own)
+Wall[MOST_WALLS] nearWalls(StateSphere own, int k)
 {
     contactRadius = own.radius;
     Wall near[MOST_WALLS];
-    for (int k = 0; k < MOST_WALLS; ++k) near[k] = Wall(vec3(0.0), 1e30, vec3(0.0), 0.0);
+    for (int w = 0; w < MOST_WALLS; ++w) near[w] = Wall(vec3(0.0), 1e30, vec3(0.0), 0.0);
+    float least = colliderIsAnswered(k) ? 0.0 : -1e30;  // m, of a gap
     float reach = 0.25 * own.radius + length(own.velocity) * contactStep;
 #ifdef JOINT_CONTACT
     ivec3 skip = ivec3(-1);
     waySquared = 0.0;  // distances as they are
-    for (int k = 0; k < MOST_WALLS; ++k) {
+    for (int w = 0; w < MOST_WALLS; ++w) {
         Touch t = survey(own.anchor, own.position, own.velocity, contactStep, skip).swept;
         if (t.which < 0 || t.distance >= reach) break;
-        near[k] = Wall(t.normal, gapTo(t.distance), t.velocity, materialOf(t).y);
+        near[w] = Wall(t.normal, max(t.distance, least), t.velocity, materialOf(t).y);
         skip = ivec3(skip.y, t.which, -1);
     }
 #else
     vec4 surface = surfaceAt(own.anchor, own.position);
-    if (surface.w < reach) near[0] = Wall(surface.xyz, gapTo(surface.w), vec3(0.0), colliderParameters[0].y);
+    if (surface.w < reach) near[0] = Wall(surface.xyz, max(surface.w, least), vec3(0.0), colliderParameters[0].y);
 #endif
     return near;
 }

@@ -138,20 +138,32 @@ void meet(int slot)
     }
 }
 
-#if defined(BODIES) && defined(WALLS)
+#ifdef HOLDS
+#include "physics/pair.glsl"
+#ifdef BODIES
 #include "contact/body_sums.glsl"
+#endif
 #include "contact/walls.glsl"
 
 uniform WALL_RECORDS walls;  // by sphere
+
+// Whether a collider holds a sphere that its step has not held: of a rigid body one that is near, of a triangle one that it overlaps.
+bool isHeldByWall(int sphere)
+{
+    float gap = wallTexel(walls, sphere, 0).w;
+#ifdef BODIES
+    if (bodySphereAt(sphere).perMass > 0.0) return gap < 1e20;
+#endif
+    return gap < -restingOverlap * ownRadius;
+}
 #endif
 
 // Returns the slot's count.
 uint countFound(int slot)
 {
     uint counted = uint(found);
-#if defined(BODIES) && defined(WALLS)
-    bool isBody = bodySphereAt(sphereOf(slot)).perMass > 0.0;
-    if (isBody && wallTexel(walls, sphereOf(slot), 0).w < 1e20) counted |= HELD;
+#ifdef HOLDS
+    if (isHeldByWall(sphereOf(slot))) counted |= HELD;
 #endif
     bool responds = counted != 0u;
 #if defined(REMEMBERS) && defined(TEXTURES)

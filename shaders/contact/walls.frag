@@ -10,7 +10,7 @@ void main()
     int number = ownNumber() - firstSphere;
     if (number < 0 || number >= partSpheres) discard;
     int molecule = number / SPHERES;
-    Wall near[MOST_WALLS] = nearWalls(sphereOfState(molecule, number - molecule * SPHERES));
+    Wall near[MOST_WALLS] = nearWalls(sphereOfState(molecule, number - molecule * SPHERES), number - molecule * SPHERES);
     vec4 walls[2 * MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k) {
         walls[2 * k] = vec4(near[k].normal, near[k].gap);

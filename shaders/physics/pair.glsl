@@ -1,6 +1,10 @@
 // Contact of two spheres of masses m and 1/w. All that is the same for both comes out the same to the bit on either
 // side, so that what one gains the other loses. Read as C++ through GLM by the tests.
 
+// What rests may overlap by so much of the sum of the radii. If it were pushed apart to the last, it would lose touch with what else
+// it lies on, and fall back onto that at the speed at which a contact may close, in every step.
+const float restingOverlap = 0.005f;
+
 struct PairContact {
     vec3 normal;   // unit, from the other sphere to this one
     float since;   // s, since they touched; 0 without an impact

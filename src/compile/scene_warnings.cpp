@@ -85,13 +85,15 @@ struct Girth {
     }
 };
 
-// Vertices alone touch colliders: what is thinner than the gap between three of them passes through the
-// triangle.
+// Triangles do not touch colliders, but for the spheres of contact at their middles: what is thinner than the
+// gap that is left passes through.
 void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan& plan,
                          std::vector<Warning>& warnings) {
     constexpr int many = 1000;  // vertices, whose gaps take too long to look at
     if (!plan.needs.collide || group.molecule.triangles.empty() || plan.vertexCount > many) return;
     const double scale = largestScale(plan), radius = group.contact ? group.contact->radius * scale : 0;
+    const bool middles =
+        group.contact && group.contact->triangles && scene.contact.response == ContactResponse::simultaneous;
     std::optional<Gap> gap;
     std::string names;
     size_t count = 0;
@@ -99,7 +101,7 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     for (const Collider& collider : scene.colliders) {
         const std::optional<double> girth = std::visit(Girth{}, *collider.shape);
         if (!girth) continue;
-        if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, false), 0);
+        if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, middles), 0);
         if (*girth + std::max(collider.thickness, radius) >= gap->radius * scale) continue;
         needed = std::max(needed, gap->radius - *girth / scale);
         if (++count > 3) continue;
@@ -112,7 +114,8 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     warnings.push_back(
         {group.location,
          concat(names, count > 1 ? " pass" : " passes", " through triangle ", gap->triangle, " of \"",
-                plan.name, "\": its vertices alone touch colliders, and leave a gap of ", gap->radius * scale,
+                plan.name, "\": its vertices", middles ? " and the middles of its triangles" : "",
+                " alone touch colliders, and leave a gap of ", gap->radius * scale,
                 " m: a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
 }
 

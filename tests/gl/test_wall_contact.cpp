@@ -1,6 +1,7 @@
 // Contact of molecules where a collider or a triangle takes part, against closed forms.
 #include <cmath>
 
+#include "gl/feature_scenes.h"
 #include "gl/numerics.h"
 #include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
@@ -95,6 +96,32 @@ TEST_CASE("a marble bounces off a triangle as off its three corners", "[molecule
     CHECK(simulation.snapshot(1).velocities[0].y == Approx(0.5).margin(1e-3));
     for (const dvec3& v : simulation.snapshot(0).velocities)
         CHECK(v.y == Approx(-0.5).margin(1e-3));
+}
+
+TEST_CASE("spheres on triangles hold a sheet on what fits between its vertices", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(fusedPaths()));
+    const bool triangles = GENERATE(false, true);
+    Scene scene = test::sceneOf(test::sheet(3, 3, false), SolverKind::leapfrog, {at({-0.5, 0.6, -0.5})});
+    Group& sheet = scene.groups[0];
+    for (Spring& spring : sheet.molecule.springs)
+        spring.actuation.reset();
+    sheet.contact.emplace().radius = 0.025;
+    sheet.contact->triangles = triangles;
+    sheet.restitution = 0;
+    scene.gravity = {0, -9.81, 0};
+    scene.colliders = {test::collider(test::plane({0, 1, 0}), 0, 0.5, 0)};
+    for (const double x : {-0.5, 0.5})
+        for (const double z : {-0.5, 0.5})
+            scene.colliders.push_back(
+                test::collider(SphereCollider{{0.5 * x, 0.3, 0.5 * z}, 0.2}, 0, 0.5, 0));
+    test::setStableSubsteps(scene);
+    Simulation simulation = simulationOn(path, scene);
+    test::run(simulation, 120);
+    double lowest = 1e9;
+    for (const dvec3& place : simulation.snapshot(0).positions)
+        lowest = std::min(lowest, place.y);
+    CAPTURE(name(path), triangles, lowest);
+    CHECK((lowest > 0.3) == triangles);
 }
 
 // Still on each kind of text that colliders have: a plane alone, several at once, the table, a distance
