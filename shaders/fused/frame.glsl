@@ -37,7 +37,9 @@ bool loopsEndEarly()
 #endif
 #ifdef SOFTWARE
     int taken = 0;
-    while (taken <= substeps + turnsLeft) ++taken;  // Mesa does not write it out; a `for` of it hangs the linker of 26.2
+    do {  // Mesa does not write it out; a `for` or a `while` of it hangs the linker of 26.2
+        ++taken;
+    } while (taken <= substeps + turnsLeft);
     early = early || taken <= substeps + turnsLeft;
 #endif
     return early;
