@@ -1,6 +1,5 @@
 #include "geometry/announced.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -9,40 +8,6 @@
 namespace shoal {
 
 namespace {
-
-// The next line that is no comment and not empty.
-bool nextLine(std::istream& in, std::string& line) {
-    while (std::getline(in, line)) {
-        line.erase(std::min(line.find('#'), line.size()));
-        if (line.find_first_not_of(" \t\r") != std::string::npos) return true;
-    }
-    return false;
-}
-
-std::optional<size_t> trianglesOfOff(std::istream& in) {
-    std::string line, word;
-    size_t vertices = 0, faces = 0;
-    if (!nextLine(in, line)) return std::nullopt;
-    std::istringstream head(line);
-    if (!(head >> word) || !word.ends_with("OFF")) return std::nullopt;
-    if (!(head >> vertices >> faces)) {
-        if (!nextLine(in, line)) return std::nullopt;
-        std::istringstream counts(line);
-        if (!(counts >> vertices >> faces)) return std::nullopt;
-    }
-    for (size_t i = 0; i < vertices; ++i)
-        if (!nextLine(in, line)) return std::nullopt;
-    size_t triangles = 0;
-    for (size_t i = 0; i < faces && nextLine(in, line); ++i) {
-        size_t corners = 0, vertex = 0;
-        std::istringstream numbers(line);
-        if (!(numbers >> corners)) return std::nullopt;
-        for (size_t k = 0; k < corners && corners > 0; ++k)
-            if (!(numbers >> vertex) || vertex >= vertices) corners = 0;  // a corner that is not there
-        triangles += corners >= 3 ? corners - 2 : 0;
-    }
-    return triangles;
-}
 
 size_t linesThatBeginWith(const char* keyword, const std::string& text) {
     std::istringstream in(text);
@@ -91,13 +56,11 @@ std::optional<size_t> trianglesOfAc(const std::string& text) {
 
 std::optional<size_t> announcedTriangles(const std::string& file) {
     const std::string ending = lowerExtension(file);
-    if (ending != ".off" && ending != ".stl" && ending != ".ase" && ending != ".ac") return std::nullopt;
+    if (ending != ".stl" && ending != ".ase" && ending != ".ac") return std::nullopt;
     const std::string text = readFile(file);
     if (ending == ".stl") return trianglesOfStl(text);
     if (ending == ".ase") return trianglesOfAse(text);
-    if (ending == ".ac") return trianglesOfAc(text);
-    std::istringstream in(text);
-    return trianglesOfOff(in);
+    return trianglesOfAc(text);
 }
 
 }  // namespace shoal

@@ -8,9 +8,9 @@
 
 namespace shoal {
 
-// Returns the triangles that a model has, its polygons cut: of OFF by its lines, of STL as text by its
-// "facet"s, of ASE by its "*MESH_FACE"s, of AC3D by its surfaces. None: the file is of another format,
-// binary, or not understood here.
+// Returns the triangles that a model has, its polygons cut: of STL as text by its "facet"s, of ASE by its
+// "*MESH_FACE"s, of AC3D by its surfaces. None: the file is of another format, binary, or not understood
+// here.
 std::optional<size_t> announcedTriangles(const std::string& file);
 
 }  // namespace shoal

@@ -15,8 +15,8 @@ namespace {
 
 Mesh readModel(const ModelFile& model) {
     static constexpr std::pair<const char*, Mesh (*)(const ModelFile&)> readers[] = {
-        {".3mf", read3mf}, {".glb", readGltf}, {".gltf", readGltf},
-        {".obj", readObj}, {".ply", readPly},  {".xyz", readXyz}};
+        {".3mf", read3mf}, {".glb", readGltf}, {".gltf", readGltf}, {".obj", readObj},
+        {".off", readOff}, {".ply", readPly},  {".xyz", readXyz}};
     const std::string ending = lowerExtension(model.name);
     const auto own = std::find_if(std::begin(readers), std::end(readers),
                                   [&](const auto& reader) { return ending == reader.first; });

@@ -27,6 +27,7 @@ struct ModelFile {
 
 Mesh read3mf(const ModelFile& model);
 Mesh readGltf(const ModelFile& model);
+Mesh readOff(const ModelFile& model);
 Mesh readPly(const ModelFile& model);
 Mesh readWithAssimp(const ModelFile& model);
 Mesh readObj(const ModelFile& model);
