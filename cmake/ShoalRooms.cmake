@@ -6,8 +6,10 @@
 
 add_library(shoal_options INTERFACE)
 target_compile_options(shoal_options INTERFACE
-    $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
     -Wnon-virtual-dtor -Woverloaded-virtual
+    # Clang warns as well of names that other sources of the same unity build use.
+    $<$<CXX_COMPILER_ID:GNU>:-Wshadow>
     # GCC 12 warns of its own std::string (its bug 105651), with precompiled headers in these words as well,
     # and of types without a name elsewhere in sources that are compiled as one. GCC 13 and later take what a
     # function returns by reference for dangling wherever a text was made for its argument.

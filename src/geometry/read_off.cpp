@@ -1,5 +1,5 @@
-// Reads OFF as text (Geomview): vertices with normals, colours and texture coordinates as the header's letters
-// say, a line each, and polygons with colours.
+// Reads OFF as text (Geomview): vertices with normals, colours and texture coordinates as the header's
+// letters say, a line each, and polygons with colours.
 #include <algorithm>
 #include <sstream>
 

@@ -136,6 +136,37 @@ TEST_CASE("a warning is told and does not fail", "[cli]") {
     CHECK_THAT(outcome.out, Catch::Contains("without any stiffness"));
 }
 
+TEST_CASE("what a model's file loses is an error of every command that reads it, but with --lenient",
+          "[cli][model]") {
+    const Scratch scratch;
+    std::string triangles;
+    for (const char* corners : {"vertex 6.5e6 0 0\nvertex 6500001 0 0\nvertex 6.5e6 1 0\n",
+                                "vertex 6500001 0 0\nvertex 6500001 1 0\nvertex 6.5e6 1 0\n"})
+        triangles += concat("facet normal 0 0 1\nouter loop\n", corners, "endloop\nendfacet\n");
+    const std::string far = scratch.write("far.stl", concat("solid a\n", triangles, "endsolid a\n"));
+    const std::string scene = scratch.write(
+        "far.scene.json", R"({"format": "shoal-scene-1", "models": [{"name": "far", "file": "far.stl"}],
+            "groups": [{"particle": {"mass": 1, "shape": "quads", "size": 0.1, "blend": "none"},
+                "place": {"on": "list", "items": [{}]}}]})");
+    const std::string molecule = scratch.path("far.json");
+    const std::vector<Words> commands = {{"check", scene},
+                                         {"explain", scene},
+                                         {"run", scene, "--headless", "--frames", "1"},
+                                         {"export", scene, "--glb", scratch.path("far.glb")},
+                                         {"molecule", "from-mesh", far, "-o", molecule}};
+    for (Words words : commands) {
+        INFO(words[0]);
+        const Outcome refused = runShoal(words);
+        CHECK(refused.code == 1);
+        CHECK_THAT(refused.err, Catch::Contains("rounded by up to") && Catch::Contains("--lenient reads it"));
+        words.emplace_back("--lenient");
+        const Outcome read = runShoal(words);
+        INFO(read.err);
+        CHECK(read.code == 0);
+        CHECK_THAT(read.out + read.err, Catch::Contains("rounded by up to"));
+    }
+}
+
 TEST_CASE("the smallest scene that ships warns of nothing", "[cli]") {
     const Outcome outcome = runShoal({"check", squaresScene()});
     CHECK(outcome.code == 0);

@@ -134,7 +134,6 @@ TEST_CASE("errors of a key say what was expected and what was found", "[json]") 
     std::string s;
     glm::dvec3 v;
     glm::dvec2 w;
-    std::optional<int> none;
     CHECK(messageOf([&] { reader.get("mass", d, Range{.least = 0, .aboveLeast = true}); }) ==
           "f:1:10: expected a number above 0, found -3 (at $.mass)");
     CHECK(messageOf([&] { reader.get("mass", d, Range::atLeast(0)); }) ==

@@ -16,8 +16,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 glm::dquat about(const dvec3& axis, double angle) {
     return glm::angleAxis(angle, glm::normalize(axis));
 }

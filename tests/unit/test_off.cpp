@@ -36,8 +36,9 @@ TEST_CASE("an OFF file is read with comments, and counts behind its keyword or b
 }
 
 TEST_CASE("vertices of OFF have what the letters of its keyword say", "[model][off]") {
-    const Mesh all = off("STCNOFF\n3 1 0\n0 0 0 0 0 2 255 0 0 255 0.25 1\n1 0 0 0 0 1 0 255 0 255 0 0\n"
-                         "0 1 0 0 0 1 0 0 255 255 1 1\n3 0 1 2\n");
+    const Mesh all =
+        off("STCNOFF\n3 1 0\n0 0 0 0 0 2 255 0 0 255 0.25 1\n1 0 0 0 0 1 0 255 0 255 0 0\n"
+            "0 1 0 0 0 1 0 0 255 255 1 1\n3 0 1 2\n");
     CHECK(all.notes.empty());
     CHECK(all.normals[0] == glm::dvec3(0, 0, 1));
     CHECK(all.colors[1] == glm::dvec3(0, 1, 0));
@@ -52,7 +53,8 @@ TEST_CASE("vertices of OFF have what the letters of its keyword say", "[model][o
 }
 
 TEST_CASE("what of an OFF file is not read is told, and what is wrong with its line", "[model][off]") {
-    const Mesh left = off("OFF\n3 3 0\n0 0 0 7\n1 0 0 7\n1 1 0 7\n3 0 1 2 5\n2 0 1\n3 2 1 0 0.5 0.5 0.5 0.5\nmore\n");
+    const Mesh left =
+        off("OFF\n3 3 0\n0 0 0 7\n1 0 0 7\n1 1 0 7\n3 0 1 2 5\n2 0 1\n3 2 1 0 0.5 0.5 0.5 0.5\nmore\n");
     REQUIRE(left.notes.size() >= 5);
     const std::string notes = joined(left.notes, "; ");
     for (const char* told : {"goes on behind the faces", "1 face has fewer than three corners",
