@@ -56,9 +56,10 @@ std::optional<size_t> trianglesOfAc(const std::string& text) {
 
 std::optional<size_t> announcedTriangles(const std::string& file) {
     const std::string ending = lowerExtension(file);
-    if (ending != ".stl" && ending != ".ase" && ending != ".ac") return std::nullopt;
+    if (ending != ".stl" && ending != ".ase" && ending != ".ac" && ending != ".dae") return std::nullopt;
     const std::string text = readFile(file);
     if (ending == ".stl") return trianglesOfStl(text);
+    if (ending == ".dae") return trianglesOfCollada(text);
     if (ending == ".ase") return trianglesOfAse(text);
     return trianglesOfAc(text);
 }

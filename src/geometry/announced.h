@@ -9,8 +9,11 @@
 namespace shoal {
 
 // Returns the triangles that a model has, its polygons cut: of STL as text by its "facet"s, of ASE by its
-// "*MESH_FACE"s, of AC3D by its surfaces. None: the file is of another format, binary, or not understood
-// here.
+// "*MESH_FACE"s, of AC3D by its surfaces, of COLLADA by its scene. None: the file is of another format,
+// binary, or not understood here.
 std::optional<size_t> announcedTriangles(const std::string& file);
+
+// Of a document's scene: every node's each time that it is placed there (announced_collada.cpp).
+std::optional<size_t> trianglesOfCollada(const std::string& text);
 
 }  // namespace shoal

@@ -8,6 +8,7 @@
 #include <set>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -222,7 +223,8 @@ bool tellsOfMemory(const std::string& message) {
 Mesh readWithAssimp(const ModelFile& model) {
     const Location location{model.name};
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles(model.opened));  // which the importer deletes
+    importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // invents no mesh of bones or nodes
+    importer.SetIOHandler(new ModelFiles(model.opened));                  // which the importer deletes
     const aiScene* scene = importer.ReadFile(model.name, aiProcess_Triangulate);
     if (!scene && tellsOfMemory(importer.GetErrorString())) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)

@@ -3,6 +3,7 @@
 
 #include "author/from_mesh.h"
 #include "core/image.h"
+#include "geometry/announced.h"
 #include "geometry/mesh.h"
 #include "geometry/polygon.h"
 #include "support/catch.h"
@@ -355,6 +356,39 @@ TEST_CASE("what a text says of its triangles is held against what was read", "[m
     CHECK(loss("m.ase", ase(2)) == "");
     CHECK_THAT(loss("m.ase", ase(1)),
                Catch::Contains("m.ase: its text has 2 triangles, and its reader gives 1"));
+}
+
+TEST_CASE("a COLLADA scene has the triangles of its nodes, and none where it has no mesh", "[model]") {
+    const Scratch scratch;
+    const auto dae = [&](const std::string& primitives, const std::string& nodes) {
+        const std::string text = concat(
+            R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries><geometry id="g" name="g"><mesh>
+<source id="p"><float_array id="f" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
+<accessor source="#f" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)",
+            primitives, R"(</mesh></geometry></library_geometries><library_visual_scenes>
+<visual_scene id="s" name="s">)",
+            nodes,
+            R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+        return scratch.write("m.dae", text);
+    };
+    const std::string input = R"(<input semantic="VERTEX" source="#v" offset="0"/>)";
+    const std::string place = R"(<instance_geometry url="#g"/>)";
+    const auto node = [](const std::string& in) { return concat("<node>", in, "</node>"); };
+    const std::string quad =
+        concat(R"(<polylist count="1">)", input, "<vcount>4</vcount><p>0 1 2 3</p></polylist>");
+    CHECK(loadMesh(dae(quad, node(place))).triangles.size() == 2);
+    const std::string moved = node("<translate>2 0 0</translate>" + place);
+    CHECK(loadMesh(dae(quad, node(place + moved) + node(moved))).triangles.size() == 6);
+    const std::string strips =
+        concat("<tristrips count=\"2\">", input, "<p>0 1 3 2</p><p>0 1 2</p></tristrips><lines count=\"1\">",
+               input, "<p>0 2</p></lines>");
+    CHECK(trianglesOfCollada(readFile(dae(strips, node(place)))) == 3);
+    CHECK(loadMesh(dae(strips, node(place))).triangles.size() == 3);
+    CHECK_FALSE(trianglesOfCollada(readFile(dae(quad, node(R"(<instance_geometry url="other.dae#g"/>)")))));
+    CHECK_THAT(messageOf([&] { loadMesh(dae(quad, node(""))); }), Catch::Contains("m.dae: has no triangles"));
 }
 
 TEST_CASE("a sheet at map coordinates is the molecule that it is at the origin", "[model][obj][from-mesh]") {
