@@ -245,6 +245,12 @@ TEST_CASE("arrays that meshoptimizer compressed are read, beside a buffer that i
     const Mesh mesh = read(file("12", packed));
     checkBox(mesh, {0, 0, 0}, {1, 2, 3});
     CHECK(examineSurface(mesh).closed());
+    // a filtered number is 24 bits times 2 to the other 8; these are whole
+    const std::vector<uint32_t> words(boxPoints.begin(), boxPoints.end());
+    std::vector<uint8_t> filtered(meshopt_encodeVertexBufferBound(8, 12));
+    filtered.resize(meshopt_encodeVertexBuffer(filtered.data(), filtered.size(), words.data(), 8, 12));
+    checkBox(read(file(R"(12, "filter": "EXPONENTIAL")", filtered)), {0, 0, 0}, {1, 2, 3});
+    CHECK_THAT(refusal(file(R"(12, "filter": "QUATERNION")", packed)), Contains("does not fit its mode"));
     CHECK_THAT(refusal(file("13", packed)), Contains("does not fit its mode and filter"));
     CHECK_THAT(refusal(file("12", {packed.begin(), packed.end() - 9})),
                Contains("compressed bytes are damaged"));
