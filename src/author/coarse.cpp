@@ -145,6 +145,34 @@ double flatness(const std::vector<glm::dvec3>& points) {
     return values(2) > 0 ? std::sqrt(std::max(0.0, values(0)) / values(2)) : 0;
 }
 
+void fold(CoarseMesh& coarse, double height) {
+    glm::dvec3 normal(0);
+    std::vector<std::pair<int, int>> edges;
+    for (const glm::ivec3& t : coarse.triangles) {
+        const glm::dvec3& a = coarse.positions[size_t(t.x)];
+        const glm::dvec3 area =
+            glm::cross(coarse.positions[size_t(t.y)] - a, coarse.positions[size_t(t.z)] - a);
+        normal += glm::dot(area, normal) < 0 ? -area : area;
+        for (int i = 0; i < 3; ++i)
+            edges.emplace_back(t[i], t[(i + 1) % 3]);
+    }
+    if (!(glm::length(normal) > 0)) return;  // all in one line: there is no side to fold to
+    normal = glm::normalize(normal);
+    // as many edges as can be from up to down: greedily, one vertex after another
+    std::vector<int> side(coarse.positions.size(), 0);
+    for (int round = 0; round < 8; ++round)
+        for (size_t v = 0; v < side.size(); ++v) {
+            int sum = 0;
+            for (const auto& edge : edges) {
+                if (size_t(edge.first) == v) sum += side[size_t(edge.second)];
+                if (size_t(edge.second) == v) sum += side[size_t(edge.first)];
+            }
+            side[v] = sum > 0 ? -1 : 1;
+        }
+    for (size_t v = 0; v < side.size(); ++v)
+        coarse.positions[v] += 0.5 * height * side[v] * normal;
+}
+
 void mapToCoarse(const Mesh& mesh, CoarseMesh& coarse) {
     const std::vector<glm::dvec3>& places = mesh.weldedPositions;
     std::vector<std::vector<std::pair<int, double>>> ways(places.size());

@@ -93,4 +93,8 @@ void mapToCoarse(const Mesh& mesh, CoarseMesh& coarse);
 // The smallest of the three extents along the principal axes, as a share of the largest.
 double flatness(const std::vector<glm::dvec3>& points);
 
+// Moves the vertices of what is flat up and down in turn by half a height, m, so that bending stretches
+// springs to first order.
+void fold(CoarseMesh& coarse, double height);
+
 }  // namespace shoal

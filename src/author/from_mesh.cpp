@@ -6,13 +6,12 @@
 #include <memory>
 #include <numbers>
 
-#include <Eigen/Dense>
-
 #include "author/coarse.h"
+#include "author/mass_spread.h"
+#include "author/placed_mesh.h"
 #include "author/springs.h"
 #include "core/error.h"
 #include "geometry/close_holes.h"
-#include "geometry/doubled_walls.h"
 #include "geometry/subdivide.h"
 #include "molecule/molecule_file.h"
 #include "molecule/skin.h"
@@ -39,180 +38,9 @@ glm::dvec3 rounded(const glm::dvec3& value, double size) {
     return shift >= 0 ? glm::round(value * power) / power : glm::round(value / power) * power;
 }
 
-// Vertices that no triangle has would stretch the box, and be taken for a part of the shape.
-Mesh withoutStrays(Mesh mesh) {
-    std::vector<int> number(mesh.positions.size(), -1);
-    for (const glm::ivec3& t : mesh.triangles)
-        for (int i = 0; i < 3; ++i)
-            number[size_t(t[i])] = 0;
-    if (std::find(number.begin(), number.end(), -1) == number.end()) return mesh;
-    size_t count = 0;
-    for (size_t v = 0; v < number.size(); ++v) {
-        if (number[v] < 0) continue;
-        mesh.positions[count] = mesh.positions[v];
-        mesh.normals[count] = mesh.normals[v];
-        if (!mesh.colors.empty()) mesh.colors[count] = mesh.colors[v];
-        if (!mesh.uvs.empty()) mesh.uvs[count] = mesh.uvs[v];
-        if (!mesh.bones.empty()) mesh.bones[count] = mesh.bones[v];
-        number[v] = int(count++);
-    }
-    mesh.positions.resize(count);
-    mesh.normals.resize(count);
-    mesh.colors.resize(std::min(mesh.colors.size(), count));
-    mesh.uvs.resize(std::min(mesh.uvs.size(), count));
-    mesh.bones.resize(std::min(mesh.bones.size(), count));
-    for (glm::ivec3& t : mesh.triangles)
-        for (int i = 0; i < 3; ++i)
-            t[i] = number[size_t(t[i])];
-    completeMesh(mesh);
-    return mesh;
-}
-
-// In metres, where it is wanted. A mesh that lies at map coordinates comes to the origin: what is single
-// precision would not hold its shape there.
-Mesh placed(const Mesh& source, const FromMesh& options) {
-    Mesh mesh = withoutStrays(source);
-    if (options.forward) turnForward(mesh, *options.forward);
-    const glm::dvec3 extent = mesh.high - mesh.low;
-    const double longest = std::max({extent.x, extent.y, extent.z});
-    if (!(longest > 0)) throw Error("all vertices of the mesh lie in one place");
-    const double scale = options.size ? *options.size / longest : 1;
-    const glm::dvec3 middle = 0.5 * (mesh.low + mesh.high);
-    constexpr double farAway = 1000;  // sizes
-    const bool tooFar = !options.centre && glm::length(middle) > farAway * longest;
-    if (tooFar)
-        mesh.notes.push_back(concat("the mesh lies ", glm::length(middle), " m from the origin, and is ",
-                                    longest, " m long: its middle was put at the origin"));
-    const glm::dvec3 origin = options.centre || tooFar ? middle : glm::dvec3(0);
-    for (std::vector<glm::dvec3>* all : {&mesh.positions, &mesh.weldedPositions})
-        for (glm::dvec3& p : *all)
-            p = scale * (p - origin);
-    mesh.low = scale * (mesh.low - origin);
-    mesh.high = scale * (mesh.high - origin);
-    const glm::dvec3 far = glm::max(glm::abs(mesh.low), glm::abs(mesh.high));
-    if (std::max({far.x, far.y, far.z}) > 1e6)
-        throw Error("the mesh reaches further than 1000 km from the origin: centre it, or give a size");
-    return mesh;
-}
-
-// The distribution of a body's volume or a sheet's area, over the coarse vertices and in space.
-struct Spread {
-    std::vector<double> shares;  // of each coarse vertex; they add up to 1
-    glm::dvec3 axis{0, 0, 1};    // unit, along which it is spread widest
-    double gyration = 0;         // m, along the thinnest direction
-};
-
-class Gather {
-  public:
-    explicit Gather(size_t vertices) : shares_(vertices, 0) {}
-    void add(const glm::dvec3& place, double amount, size_t vertex) {
-        const Eigen::Vector3d p(place.x, place.y, place.z);
-        total_ += amount;
-        first_ += amount * p;
-        second_ += amount * p * p.transpose();
-        shares_[vertex] += amount;
-    }
-    Spread finish() {
-        Spread out;
-        const Eigen::Vector3d middle = first_ / total_;
-        const Eigen::Matrix3d spread = second_ / total_ - middle * middle.transpose();
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-        const Eigen::Vector3d axis = solver.eigenvectors().col(2);
-        out.axis = {axis.x(), axis.y(), axis.z()};
-        out.gyration = std::sqrt(std::max(0.0, solver.eigenvalues()(0)));
-        // no vertex is so light that it would need short steps
-        constexpr double least = 0.4;  // of the mean
-        const double floor = least * total_ / double(shares_.size());
-        double sum = 0;
-        for (double& share : shares_)
-            sum += share = std::max(share, floor);
-        for (const double share : shares_)
-            out.shares.push_back(share / sum);
-        return out;
-    }
-
-  private:
-    std::vector<double> shares_;
-    double total_ = 0;
-    Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
-};
-
-size_t nearestTo(const std::vector<glm::dvec3>& places, const glm::dvec3& point) {
-    size_t best = 0;
-    for (size_t i = 1; i < places.size(); ++i)
-        if (glm::distance(places[i], point) < glm::distance(places[best], point)) best = i;
-    return best;
-}
-
-Spread spreadOfBody(const CoarseMesh& coarse, const Inside& inside) {
-    Gather gather(coarse.positions.size());
-    for (const glm::dvec3& sample : inside.samples())
-        gather.add(sample, 1, nearestTo(coarse.positions, sample));
-    return gather.finish();
-}
-
-Spread spreadOfSheet(const Mesh& mesh, const CoarseMesh& coarse) {
-    Gather gather(coarse.positions.size());
-    for (const glm::ivec3& t : mesh.triangles) {
-        const glm::dvec3 &a = mesh.positions[size_t(t.x)], &b = mesh.positions[size_t(t.y)],
-                         &c = mesh.positions[size_t(t.z)];
-        const double third = glm::length(glm::cross(b - a, c - a)) / 6;
-        for (int i = 0; i < 3; ++i) {
-            const int welded = mesh.weld[size_t(t[i])];
-            // where the exact second moments of a triangle lie: half way to the middle
-            const glm::dvec3 place = 0.5 * mesh.positions[size_t(t[i])] + (a + b + c) / 6.0;
-            gather.add(place, third, size_t(coarse.map[size_t(welded)]));
-        }
-    }
-    return gather.finish();
-}
-
-// Moves what is flat up and down in turn, so that bending stretches springs to first order.
-void fold(CoarseMesh& coarse, double height) {
-    glm::dvec3 normal(0);
-    std::vector<Pair> edges;
-    for (const glm::ivec3& t : coarse.triangles) {
-        const glm::dvec3& a = coarse.positions[size_t(t.x)];
-        const glm::dvec3 area =
-            glm::cross(coarse.positions[size_t(t.y)] - a, coarse.positions[size_t(t.z)] - a);
-        normal += glm::dot(area, normal) < 0 ? -area : area;
-        for (int i = 0; i < 3; ++i)
-            edges.emplace_back(t[i], t[(i + 1) % 3]);
-    }
-    if (!(glm::length(normal) > 0)) return;  // all in one line: there is no side to fold to
-    normal = glm::normalize(normal);
-    // as many edges as can be from up to down: greedily, one vertex after another
-    std::vector<int> side(coarse.positions.size(), 0);
-    for (int round = 0; round < 8; ++round)
-        for (size_t v = 0; v < side.size(); ++v) {
-            int sum = 0;
-            for (const Pair& edge : edges) {
-                if (size_t(edge.first) == v) sum += side[size_t(edge.second)];
-                if (size_t(edge.second) == v) sum += side[size_t(edge.first)];
-            }
-            side[v] = sum > 0 ? -1 : 1;
-        }
-    for (size_t v = 0; v < side.size(); ++v)
-        coarse.positions[v] += 0.5 * height * side[v] * normal;
-}
-
 struct TornSkin : Error {
     using Error::Error;
 };
-
-// Returns what a molecule is made of, of which the skin keeps all.
-Mesh withoutDoubledWalls(Mesh mesh) {
-    const std::vector<char> doubled = doubledWalls(mesh);
-    std::vector<glm::ivec3> kept;
-    for (size_t t = 0; t < doubled.size(); ++t)
-        if (!doubled[t]) kept.push_back(mesh.triangles[t]);
-    if (kept.size() == mesh.triangles.size()) return mesh;
-    mesh.triangles = std::move(kept);
-    mesh.objects.clear();
-    mesh.parts.clear();
-    return mesh;
-}
 
 // One run of makeMolecule, step by step.
 class Maker {
@@ -336,7 +164,7 @@ class Maker {
     }
 
     void makeVertices() {
-        const Spread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(shape_, coarse_);
+        const MassSpread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(shape_, coarse_);
         const double density = options_.density.value_or(material_->density);
         const double mass =
             options_.mass.value_or(density * (inside_ ? made_.volume : made_.area * material_->thickness));
