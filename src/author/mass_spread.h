@@ -1,5 +1,5 @@
-// How the volume of a body or the area of a sheet, and its mass with it, is spread over the vertices of a coarse mesh
-// and in space. For from_mesh.cpp alone.
+// How the volume of a body or the area of a sheet, and its mass with it, is spread over the vertices of a
+// coarse mesh and in space. For from_mesh.cpp alone.
 #pragma once
 
 #include <vector>
