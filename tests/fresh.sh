@@ -5,6 +5,7 @@
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 suite=$1 compiler=${2:-gcc}
+[[ $suite =~ ^[a-z]+$ ]] || { printf 'expected a suite such as trixie, found "%s"\n' "$suite" >&2; exit 2; }
 shift
 [ $# -eq 0 ] || shift
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/shoal/fresh
@@ -73,5 +74,7 @@ warnings=$(grep -c 'warning:' "$log" || true)
 printf '%s %s: %s; %s; %s warnings; %s\n' "$suite" "$compiler" \
     "$([ "$code" -eq 0 ] && echo passed || echo "failed ($code)")" \
     "${summary:-no test ran: $(grep -m 1 -E 'error' "$log" || tail -n 1 "$log")}" "$warnings" "$versions"
+# What is mounted goes first: the caches lie below the root, on the same device.
+for name in var/cache/apt/archives root/.cache/ccache proc sys dev; do umount -R -l "$root/$name"; done
 [ "$code" -ne 0 ] || rm -rf --one-file-system "$root"
 exit "$code"
