@@ -59,7 +59,7 @@ float countOf(int vertex, int moleculeSphere)
 // Returns it for sphere k of the molecule whose first is `moleculeSphere`.
 float effectiveSum(int moleculeSphere, int k)
 {
-    if ((fetch(counts, slotOf(moleculeSphere + k)).x & ~RESPONDS) == 0u) return 0.0;
+    if (!isActedOn(fetch(counts, slotOf(moleculeSphere + k)).x)) return 0.0;
     vec4 shape = shapeOf(k);
     float most = countOf(k < VERTICES ? k : int(shape.x), moleculeSphere);
     if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));

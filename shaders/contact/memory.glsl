@@ -21,7 +21,7 @@ int countAt(int memory)
 
 bool remembersAt(int memory)
 {
-    return (fetch(oldCounts, memory).x & ~RESPONDS) != 0u;
+    return isActedOn(fetch(oldCounts, memory).x);
 }
 #else
 // By sphere: xyz the sum of what its contacts remember, N s, which has acted as a force since. w has two meanings: between two steps

@@ -77,7 +77,7 @@ struct OldWall {
 vec4 prepareWall(int slot, Wall wall, OldWall old[MOST_WALLS])
 {
     vec4 push = vec4(0.0);
-    if (!pressesOn(wall) || (fetch(counts, slot).x & ~RESPONDS) == 0u) return push;
+    if (!pressesOn(wall) || !isActedOn(fetch(counts, slot).x)) return push;
     countIn(wall.normal);
     for (int o = 0; o < MOST_WALLS; ++o) {
         bool same = remembers && dot(old[o].normal, wall.normal) > 0.9;

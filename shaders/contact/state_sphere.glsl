@@ -120,7 +120,7 @@ bool colliderIsAnswered(int k)
 #endif
 }
 
-// The colliders that the sphere may press on within the step, the nearest first.
+// Returns the colliders that sphere k of its molecule may press on within the step, the nearest first.
 Wall[MOST_WALLS] nearWalls(StateSphere own, int k)
 {
     contactRadius = own.radius;

@@ -138,7 +138,7 @@ void meet(int slot)
     }
 }
 
-#ifdef HOLDS
+#if defined(SPREAD) && defined(WALLS)
 #include "physics/pair.glsl"
 #ifdef BODIES
 #include "contact/body_sums.glsl"
@@ -162,12 +162,12 @@ bool isHeldByWall(int sphere)
 uint countFound(int slot)
 {
     uint counted = uint(found);
-#ifdef HOLDS
+#if defined(SPREAD) && defined(WALLS)
     if (isHeldByWall(sphereOf(slot))) counted |= HELD;
 #endif
     bool responds = counted != 0u;
 #if defined(REMEMBERS) && defined(TEXTURES)
-    responds = responds || (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & ~RESPONDS) != 0u;
+    responds = responds || isActedOn(fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x);
 #elif defined(REMEMBERS)
     responds = responds || texelFetch(known, sphereOf(slot)).w > 0.0;
 #endif

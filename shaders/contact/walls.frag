@@ -10,11 +10,12 @@ void main()
     int number = ownNumber() - firstSphere;
     if (number < 0 || number >= partSpheres) discard;
     int molecule = number / SPHERES;
-    Wall near[MOST_WALLS] = nearWalls(sphereOfState(molecule, number - molecule * SPHERES), number - molecule * SPHERES);
+    int k = number - molecule * SPHERES;
+    Wall near[MOST_WALLS] = nearWalls(sphereOfState(molecule, k), k);
     vec4 walls[2 * MOST_WALLS];
-    for (int k = 0; k < MOST_WALLS; ++k) {
-        walls[2 * k] = vec4(near[k].normal, near[k].gap);
-        walls[2 * k + 1] = vec4(near[k].velocity, near[k].friction);
+    for (int w = 0; w < MOST_WALLS; ++w) {
+        walls[2 * w] = vec4(near[w].normal, near[w].gap);
+        walls[2 * w + 1] = vec4(near[w].velocity, near[w].friction);
     }
     newWalls = walls;
 }

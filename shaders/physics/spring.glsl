@@ -15,7 +15,7 @@ vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, 
 // angle: rad, of the rate when the time begins; phase: rad, of the molecule.
 float musclePull(vec3 muscle, float angle, float time, float phase)
 {
-    // What changes comes last: compilers may add constants first, and do so here in one form of a kernel alone.
+    // The time comes last: compilers may add constants first, and one has done so in one form of a kernel alone.
     return muscle.x * sin(muscle.z + angle + phase + muscle.y * time);
 }
 

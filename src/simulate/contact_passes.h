@@ -56,9 +56,7 @@ class ContactPasses : public ContactResult {
             if (!contact_->remembers()) continue;
             rigid_ |= plan.groups[group.group].rigid;
             spreads_ |= group.triangles || plan.groups[group.group].rigid;
-            const bool collides = fused && plan.groups[group.group].needs.collide;
-            walls_ |= collides;
-            triangleWalls_ |= collides && group.triangles;
+            walls_ |= fused && plan.groups[group.group].needs.collide;
         }
     }
 
@@ -92,13 +90,10 @@ class ContactPasses : public ContactResult {
         define(spreads_, "SPREAD");
         define(rigid_, "BODIES");
         define(walls_, "WALLS");
-        define(holds(), "HOLDS");
         define(contact_->remembers(), "REMEMBERS");
         return out;
     }
 
-    // Whether the search tells what colliders hold (shaders/contact/touch.glsl).
-    bool holds() const { return walls_ && (rigid_ || triangleWalls_); }
     // `group`: among those with contact.
     bool isRigid(size_t group) const { return rigid_ && plan_->groups[contact_->groups[group].group].rigid; }
 
@@ -133,7 +128,7 @@ class ContactPasses : public ContactResult {
     const ContactPlan* contact_;
     const Tables* tables_;
     // `spreads_`: the contacts of one sphere move others.
-    bool spreads_ = false, self_ = false, walls_ = false, triangleWalls_ = false, rigid_ = false;
+    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
 
   private:
     void respond(State& state, const Times& times) {

@@ -124,8 +124,8 @@ void MoleculeContact::find(const Program& program, const Times& times) {
         setTimes(program, times);
     }
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
-    if (holds()) textures.add("walls", nearWalls_.texture);
-    if (holds() && rigid_) textures.add("bodies", bodies_.texture);
+    if (walls_ && spreads_) textures.add("walls", nearWalls_.texture);
+    if (walls_ && rigid_) textures.add("bodies", bodies_.texture);
     program.set("count", contact_->spheres);
     program.set("cell", float(contact_->cell));
     program.set("listStride", int(padded_));

@@ -319,8 +319,8 @@ void TextureContact::search(ContactState&, const Times& times) {
         find_.texture("motions", 10, motions_);
         setTimes(find_, times);
     }
-    if (holds()) find_.texture("walls", 11, nearWalls_[now_]);
-    if (holds() && rigid_) find_.texture("bodies", 12, bodies_);
+    if (walls_ && spreads_) find_.texture("walls", 11, nearWalls_[now_]);
+    if (walls_ && rigid_) find_.texture("bodies", 12, bodies_);
     if (self_) {
         find_.texture("apart", 7, apart_);
         find_.texture("groupsOf", 8, groupsOf_);
