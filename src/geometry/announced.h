@@ -13,7 +13,7 @@ namespace shoal {
 // binary, or not understood here.
 std::optional<size_t> announcedTriangles(const std::string& file);
 
-// Of a document's scene: every node's each time that it is placed there (announced_collada.cpp).
+// Returns the triangles of a COLLADA document's scene (announced_collada.cpp).
 std::optional<size_t> trianglesOfCollada(const std::string& text);
 
 }  // namespace shoal

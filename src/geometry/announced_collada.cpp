@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <pugixml.hpp>
 #include <string_view>
@@ -9,7 +10,7 @@ namespace shoal {
 
 namespace {
 
-// The numbers of a text between blanks, or the sum of what each becomes.
+// Returns the sum of what `value` makes of each number of a text.
 template <typename Value>
 size_t sumOf(const char* text, const Value& value) {
     size_t sum = 0;
@@ -24,7 +25,7 @@ size_t trianglesOfPolygon(size_t corners) {
     return corners > 2 ? corners - 2 : 0;
 }
 
-// The triangles that a document's scene has, of every node each time it is placed there (COLLADA 1.4.1).
+// Counts the triangles of a document's scene: of each geometry as often as nodes place it (COLLADA 1.4.1).
 class ColladaCount {
   public:
     explicit ColladaCount(const pugi::xml_node& document) {
@@ -68,7 +69,7 @@ class ColladaCount {
         return sum;
     }
 
-    // What is not in this document is not known.
+    // Returns what is placed; nothing where another document has it, whose triangles are not known.
     pugi::xml_node target(const pugi::xml_node& instance) {
         const pugi::xml_node out = byId(instance.attribute("url"));
         known_ = known_ && out;
@@ -76,12 +77,14 @@ class ColladaCount {
     }
 
     size_t ofGeometry(const pugi::xml_node& geometry) {
+        const auto [counted, fresh] = counts_.try_emplace(geometry.hash_value(), 0);
+        if (!fresh) return counted->second;
         const pugi::xml_node mesh = geometry.child("mesh");
         known_ = known_ && mesh;
         size_t sum = 0;
         for (pugi::xml_node below = mesh.first_child(); below; below = below.next_sibling())
             sum += ofPrimitive(below);
-        return sum;
+        return counted->second = sum;
     }
 
     size_t ofPrimitive(const pugi::xml_node& node) {
@@ -99,6 +102,7 @@ class ColladaCount {
     }
 
     std::map<std::string_view, pugi::xml_node> byId_;
+    std::map<size_t, size_t> counts_;  // of triangles, by geometry
     bool known_ = true;
     size_t count_ = 0;
     int visited_ = 0;

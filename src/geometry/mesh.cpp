@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "geometry/mesh.h"
+#include "geometry/model_reader.h"
 
 namespace shoal {
 
@@ -58,11 +59,6 @@ class WeldGrid {
     std::unordered_map<glm::i64vec3, int, CellHash> first_;
     std::vector<int> next_;  // per welded vertex: the next in its cell, -1 at the end
 };
-
-glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
-    const double length = glm::length(v);
-    return std::isfinite(length) && length > 0 ? v / length : otherwise;
-}
 
 // The triangle's normal times its angle at a corner: sums do not depend on how polygons were cut
 // [Thuermer 1998]. On a three-sided twig a sum weighted by areas would lie along a side.

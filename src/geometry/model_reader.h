@@ -44,6 +44,22 @@ inline bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// Whether a vertex may lie there; at what is not finite, never.
+inline bool isWithinReach(const glm::dvec3& place) {
+    return std::abs(place.x) <= farthest && std::abs(place.y) <= farthest && std::abs(place.z) <= farthest;
+}
+
+// Returns texture coordinates, 0 instead of what is not finite.
+inline glm::dvec2 finiteUv(const glm::dvec2& uv) {
+    return std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0);
+}
+
+// Returns a vector with length 1; `otherwise` for one that has no length, or none that is finite.
+inline glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise = glm::dvec3(0)) {
+    const double length = glm::length(v);
+    return std::isfinite(length) && length > 0 ? v / length : otherwise;
+}
+
 constexpr std::string_view blanks = " \t\n\r\v\f";
 // Returns a text without the blanks at its ends.
 inline std::string_view trimmed(std::string_view text) {

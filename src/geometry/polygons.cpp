@@ -91,6 +91,18 @@ class Copies {
 
 }  // namespace
 
+void Polygons::close(size_t count, int look, const std::string& file) {
+    if (corners.size() > mostElements)
+        throw Error(Location{file}, "has more than 2^28 corners, the most that is read");
+    polygons.push_back({corners.size() - count, count, look});
+}
+
+void Polygons::tellFlat(Mesh& mesh) const {
+    if (flat == 0) return;
+    mesh.notes.push_back(concat(many(flat, "face has", "faces have"), " fewer than three corners and ",
+                                flat == 1 ? "is" : "are", " left out"));
+}
+
 std::vector<int> Polygons::addTo(Mesh& mesh, const std::string& file) {
     Copies copies(mesh, !cornerUvs.empty(), !cornerColors.empty(), file);
     if (copies.any()) {

@@ -2,6 +2,8 @@
 // the readers of models.
 #pragma once
 
+#include <cstdint>
+
 #include "geometry/mesh.h"
 
 namespace shoal {
@@ -18,6 +20,13 @@ struct Polygons {
     // are 0 and white.
     std::vector<glm::dvec2> cornerUvs;
     std::vector<glm::dvec3> cornerColors;
+    int64_t flat = 0;  // polygons of fewer than three corners, which are left out
+
+    // Makes a polygon of the last `count` corners. Error: all corners become more than mostElements.
+    void close(size_t count, int look, const std::string& file);
+
+    // Notes how many polygons are flat.
+    void tellFlat(Mesh& mesh) const;
 
     // Cuts the polygons into triangles, adds them to a mesh that has vertices, and returns the look of each
     // of Mesh::parts, which are in the order of these numbers. Vertices are repeated where corners differ.

@@ -168,13 +168,12 @@ class Reader3mf {
         const bool mirrored = glm::determinant(m) < 0;
         for (size_t i = 0; i < piece.positions.size(); ++i) {
             const glm::dvec3 p(transform * glm::dvec4(piece.positions[i], 1));
-            if (!isFinite(p) || !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= farthest))
+            if (!isWithinReach(p))
                 throw fail(concat("vertex ", i, " of object \"", name, "\" lies at no place within ",
                                   farthest, " m"));
             const glm::dvec3 normal = cofactor * piece.normals[i] * (mirrored ? -1.0 : 1.0);
-            const double length = glm::length(normal);
             mesh_.positions.push_back(p);
-            mesh_.normals.push_back(length > 0 ? normal / length : glm::dvec3(0));
+            mesh_.normals.push_back(unit(normal));
             mesh_.colors.push_back(piece.colors.empty() ? glm::dvec3(1) : piece.colors[i]);
             mesh_.uvs.push_back(piece.uvs.empty() ? glm::dvec2(0) : piece.uvs[i]);
         }
@@ -252,10 +251,8 @@ class Reader3mf {
             NMR::MODELMESHTEXTURE2D texture{};
             need(NMR::lib3mf_propertyhandler_gettexture(properties, triangle, &texture));
             polygons.cornerUvs.resize(polygons.corners.size() - 3, glm::dvec2(0));
-            for (int k = 0; k < 3; ++k) {
-                const glm::dvec2 uv(texture.m_fU[k], texture.m_fV[k]);
-                polygons.cornerUvs.push_back(std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0));
-            }
+            for (int k = 0; k < 3; ++k)
+                polygons.cornerUvs.push_back(finiteUv({texture.m_fU[k], texture.m_fV[k]}));
             return texturedMaterial(texture.m_nTextureID);
         }
         return usualLook(usual, polygons);
@@ -284,7 +281,7 @@ class Reader3mf {
 
     glm::dvec3 colorOf(BYTE red, BYTE green, BYTE blue, BYTE alpha) {
         opacity_ = opacity_ || alpha < 255;
-        return {linearOfSrgb(red / 255.0), linearOfSrgb(green / 255.0), linearOfSrgb(blue / 255.0)};
+        return linearOfSrgb(glm::dvec3(red, green, blue) / 255.0);
     }
 
     int baseMaterial(DWORD group, DWORD index) {
@@ -295,8 +292,7 @@ class Reader3mf {
         need(NMR::lib3mf_model_getbasematerialbyid(document_, group, base.out()));
         need(NMR::lib3mf_basematerial_getdisplaycolor(base, index, &red, &green, &blue, &alpha));
         SurfaceMaterial look;
-        look.color = glm::dvec4(linearOfSrgb(red / 255.0), linearOfSrgb(green / 255.0),
-                                linearOfSrgb(blue / 255.0), alpha / 255.0);
+        look.color = glm::dvec4(linearOfSrgb(glm::dvec3(red, green, blue) / 255.0), alpha / 255.0);
         if (alpha < 255) look.alpha = SurfaceMaterial::Alpha::blend;
         mesh_.materials.push_back(look);
         lookNames_.push_back(textOf([&](char* buffer, ULONG size, ULONG* needed) {

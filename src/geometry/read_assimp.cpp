@@ -118,15 +118,14 @@ class Collector {
             if (!isFinite(position))
                 throw fail(concat("vertex ", i, " of mesh \"", part.mName.C_Str(),
                                   "\" is not finite, expected three finite numbers"));
-            if (!(std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= farthest))
+            if (!isWithinReach(position))
                 throw fail(concat("vertex ", i, " of mesh \"", part.mName.C_Str(), "\" lies beyond ",
                                   farthest, ", the farthest that is read"));
             mesh.positions.push_back(position);
 
             glm::dvec3 normal(0);
             if (part.HasNormals()) normal = cofactor * vector(part.mNormals[i]) * side;
-            const double length = glm::length(normal);
-            mesh.normals.push_back(isFinite(normal) && length > 0 ? normal / length : glm::dvec3(0));
+            mesh.normals.push_back(unit(normal));
 
             glm::dvec3 color(1);
             if (part.HasVertexColors(0)) {

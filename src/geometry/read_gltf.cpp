@@ -303,8 +303,7 @@ class GltfReader {
                         concat("vertex ", vertex, " of mesh \"", corners.mesh, "\" ", why));
         };
         if (!isFinite(at)) refuse("is not finite, expected three finite numbers");
-        if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= farthest))
-            refuse(concat("lies beyond ", farthest, ", the farthest that is read"));
+        if (!isWithinReach(at)) refuse(concat("lies beyond ", farthest, ", the farthest that is read"));
         mesh_.positions.push_back(at);
         // The inverse transpose up to a factor that normalising removes; defined for flat transforms too.
         const glm::dmat3 m(transform);
@@ -314,8 +313,7 @@ class GltfReader {
         glm::dvec3 normal(0);
         if (corners.normal.base)
             normal = cofactor * glm::dvec3(corners.normal.at(vertex)) * (mirrored ? -1.0 : 1.0);
-        const double length = glm::length(normal);
-        mesh_.normals.push_back(isFinite(normal) && length > 0 ? normal / length : glm::dvec3(0));
+        mesh_.normals.push_back(unit(normal));
         anyColors_ = anyColors_ || corners.color.base;
         const glm::dvec4 color = corners.color.base ? corners.color.at(vertex) : glm::dvec4(1);
         mesh_.colors.push_back(isFinite(color) ? glm::dvec3(color) : glm::dvec3(1));

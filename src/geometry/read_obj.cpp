@@ -99,14 +99,14 @@ class ObjReader {
 
     void addVertex(const glm::dvec3& position) {
         if (!isFinite(position)) throw fail("a vertex is not finite, expected three finite numbers");
-        if (std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) > farthest)
+        if (!isWithinReach(position))
             throw fail(concat("a vertex lies beyond ", farthest, ", the farthest that is read"));
         if (positions_.size() >= mostElements)
             throw fail("has more than 2^28 vertices, the most that is read");
         positions_.push_back(position);
         glm::dvec3 color = text_.color().value_or(glm::dvec3(1));
         anyColors_ = anyColors_ || text_.color();
-        color = {linearOfSrgb(color.r), linearOfSrgb(color.g), linearOfSrgb(color.b)};
+        color = linearOfSrgb(color);
         colors_.push_back(isFinite(color) ? color : glm::dvec3(1));
     }
 

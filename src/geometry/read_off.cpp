@@ -27,9 +27,9 @@ class OffReader {
             readFace();
         if (nextLine()) note("it goes on behind the faces that its header announces, which is not read");
         tellLeftOut();
+        if (hasColors_) polygons_.cornerColors.clear();
         convert(mesh_.colors);
         convert(polygons_.cornerColors);
-        if (hasColors_) polygons_.cornerColors.clear();
         polygons_.addTo(mesh_, model_.name);
         if (!mesh_.triangles.empty()) mesh_.objects.push_back({"", 0, int(mesh_.triangles.size())});
         return std::move(mesh_);
@@ -100,21 +100,18 @@ class OffReader {
             throw fail(concat("expected the numbers of a vertex: x y z", hasNormals_ ? ", its normal" : "",
                               hasColors_ ? ", r g b a" : "", hasUvs_ ? ", s t" : ""));
         const glm::dvec3 p(numbers_[0], numbers_[1], numbers_[2]);
-        if (!isFinite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > farthest)
-            throw fail("a vertex is not finite, or too far away");
+        if (!isWithinReach(p)) throw fail("a vertex is not finite, or too far away");
         mesh_.positions.push_back(p);
         glm::dvec3 normal(0);
         if (hasNormals_) {
             normal = {numbers_[at], numbers_[at + 1], numbers_[at + 2]};
             at += 3;
         }
-        const double length = glm::length(normal);
-        mesh_.normals.push_back(std::isfinite(length) && length > 0 ? normal / length : glm::dvec3(0));
+        mesh_.normals.push_back(unit(normal));
         if (hasColors_) mesh_.colors.push_back(takeColor(at, 4));
         at += colors;
         if (hasUvs_) {
-            const glm::dvec2 uv(numbers_[at], numbers_[at + 1]);
-            mesh_.uvs.push_back(std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0));
+            mesh_.uvs.push_back(finiteUv({numbers_[at], numbers_[at + 1]}));
             at += 2;
         }
         if (numbers_.size() > at) ++longVertices_;
@@ -134,14 +131,12 @@ class OffReader {
                 throw fail(concat("a face has a corner at vertex ", formatted("%.15g", numbers_[i]), " of ",
                                   vertices_));
         if (count < 3) {
-            ++flatFaces_;
+            ++polygons_.flat;
             return;
         }
         for (size_t i = 1; i <= count; ++i)
             polygons_.corners.push_back(int(numbers_[i]));
-        if (polygons_.corners.size() > mostElements)
-            throw Error(Location{model_.name}, "has more than 2^28 corners, the most that is read");
-        polygons_.polygons.push_back({first, count, 0});
+        polygons_.close(count, 0, model_.name);
         const size_t more = numbers_.size() - count - 1;
         if (more == 1 || more == 2) ++tableColors_;
         if (more < 3) return;
@@ -165,16 +160,12 @@ class OffReader {
 
     // Colours of OFF are taken for sRGB, as those of PLY are.
     void convert(std::vector<glm::dvec3>& colors) const {
-        for (glm::dvec3& color : colors) {
-            color = glm::clamp(color / full(), 0.0, 1.0);
-            color = {linearOfSrgb(color.r), linearOfSrgb(color.g), linearOfSrgb(color.b)};
-        }
+        for (glm::dvec3& color : colors)
+            color = linearOfSrgb(glm::clamp(color / full(), 0.0, 1.0));
     }
 
     void tellLeftOut() {
-        if (flatFaces_ > 0)
-            note(concat(many(flatFaces_, "face has", "faces have"), " fewer than three corners and ",
-                        flatFaces_ == 1 ? "is" : "are", " left out"));
+        polygons_.tellFlat(mesh_);
         if (longVertices_ > 0)
             note(concat("of ", many(longVertices_, "vertex", "vertices"),
                         " there are more numbers than the header says, which are not read"));
@@ -194,7 +185,7 @@ class OffReader {
     std::vector<double> numbers_;  // of the line
     bool hasUvs_ = false, hasColors_ = false, hasNormals_ = false;
     size_t vertices_ = 0, faces_ = 0;
-    int64_t flatFaces_ = 0, longVertices_ = 0, tableColors_ = 0;
+    int64_t longVertices_ = 0, tableColors_ = 0;
     double most_ = 0, leastAlpha_ = 1e30;  // of colours
     Mesh mesh_;
     Polygons polygons_;

@@ -110,8 +110,8 @@ class Columns {
     }
     // In PLY colours are sRGB.
     glm::dvec3 color(const PlyRow& row) const {
-        glm::dvec3 out(linearOfSrgb(share(row, Means::red)), linearOfSrgb(share(row, Means::green)),
-                       linearOfSrgb(share(row, Means::blue)));
+        const glm::dvec3 out =
+            linearOfSrgb({share(row, Means::red), share(row, Means::green), share(row, Means::blue)});
         return isFinite(out) ? out : glm::dvec3(1);
     }
     const std::vector<double>& list(const PlyRow& row, Means means) const {
@@ -196,18 +196,17 @@ class PlyReader {
             const glm::dvec3 p(columns.number(row, Means::x), columns.number(row, Means::y),
                                columns.number(row, Means::z));
             if (!isFinite(p)) throw file_.fail("it is not finite, expected three finite numbers");
-            if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= farthest))
+            if (!isWithinReach(p))
                 throw file_.fail(concat("it lies beyond ", farthest, ", the farthest that is read"));
             mesh_.positions.push_back(p);
             glm::dvec3 normal(0);
             if (normals)
                 normal = {columns.number(row, Means::normalX), columns.number(row, Means::normalY),
                           columns.number(row, Means::normalZ)};
-            const double length = glm::length(normal);
-            mesh_.normals.push_back(std::isfinite(length) && length > 0 ? normal / length : glm::dvec3(0));
+            mesh_.normals.push_back(unit(normal));
             if (hasColors_) mesh_.colors.push_back(columns.color(row));
-            const glm::dvec2 uv(columns.number(row, Means::u), columns.number(row, Means::v));
-            if (hasUvs_) mesh_.uvs.push_back(std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0));
+            if (hasUvs_)
+                mesh_.uvs.push_back(finiteUv({columns.number(row, Means::u), columns.number(row, Means::v)}));
             transparent_ = transparent_ || columns.share(row, Means::alpha) < 1;
         });
     }
@@ -219,12 +218,6 @@ class PlyReader {
         return int(index);
     }
 
-    void addPolygon(size_t count, int image) {
-        if (polygons_.corners.size() > mostElements)
-            throw Error(Location{model_.name}, "has more than 2^28 corners, the most that is read");
-        polygons_.polygons.push_back({polygons_.corners.size() - count, count, image});
-    }
-
     void readFaces(const PlyElement& element) {
         const Columns columns = columnsOf(element, faceNames);
         const bool colored = columns.has(Means::red) && columns.has(Means::green) && columns.has(Means::blue);
@@ -234,7 +227,7 @@ class PlyReader {
             for (const double index : corners)
                 vertexOf(index);
             if (corners.size() < 3) {
-                ++flatFaces_;
+                ++polygons_.flat;
                 return;
             }
             const bool whole = uvs.size() == 2 * corners.size();
@@ -242,12 +235,10 @@ class PlyReader {
             if (whole) polygons_.cornerUvs.resize(polygons_.corners.size(), glm::dvec2(0));
             for (size_t i = 0; i < corners.size(); ++i) {
                 polygons_.corners.push_back(int(corners[i]));
-                if (!whole) continue;
-                const glm::dvec2 uv(uvs[2 * i], uvs[2 * i + 1]);
-                polygons_.cornerUvs.push_back(std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0));
+                if (whole) polygons_.cornerUvs.push_back(finiteUv({uvs[2 * i], uvs[2 * i + 1]}));
             }
             const double image = columns.number(row, Means::image);
-            addPolygon(corners.size(), image >= 0 && image < 1e6 ? int(image) : -1);
+            polygons_.close(corners.size(), image >= 0 && image < 1e6 ? int(image) : -1, model_.name);
             polygons_.cornerColors.resize(colored ? polygons_.corners.size() : 0, columns.color(row));
             transparent_ = transparent_ || columns.share(row, Means::alpha) < 1;
             hasFaceColors_ = hasFaceColors_ || colored;
@@ -270,15 +261,13 @@ class PlyReader {
                 const bool odd = (i - first) % 2 == 1;
                 polygons_.corners.insert(polygons_.corners.end(), {int(strip[odd ? i - 1 : i - 2]),
                                                                    int(strip[odd ? i - 2 : i - 1]), last});
-                addPolygon(3, 0);
+                polygons_.close(3, 0, model_.name);
             }
         });
     }
 
     void tellLeftOut() {
-        if (flatFaces_ > 0)
-            note(concat(many(flatFaces_, "face has", "faces have"), " fewer than three corners and ",
-                        flatFaces_ == 1 ? "is" : "are", " left out"));
+        polygons_.tellFlat(mesh_);
         if (wrongUvs_ > 0)
             note(concat("the texture coordinates of ", many(wrongUvs_, "face", "faces"),
                         " are not two for each corner and are left out"));
@@ -323,7 +312,7 @@ class PlyReader {
     ModelImages images_;
     size_t vertexCount_ = 0;
     bool hasColors_ = false, hasFaceColors_ = false, hasUvs_ = false, transparent_ = false;
-    int64_t flatFaces_ = 0, wrongUvs_ = 0;
+    int64_t wrongUvs_ = 0;
     Polygons polygons_;
     std::vector<int> partImages_;  // by part
 };

@@ -16,8 +16,7 @@ bool isUnit(const glm::dvec3& v) {
 }
 
 glm::dvec3 colorOfBytes(const glm::dvec3& bytes) {
-    const glm::dvec3 color = glm::clamp(bytes / 255.0, 0.0, 1.0);
-    return {linearOfSrgb(color.r), linearOfSrgb(color.g), linearOfSrgb(color.b)};
+    return linearOfSrgb(glm::clamp(bytes / 255.0, 0.0, 1.0));
 }
 
 }  // namespace
@@ -43,9 +42,7 @@ Mesh readXyz(const ModelFile& model) {
         if (numbers.empty()) continue;
         if (numbers.size() < 3) throw fail("expected three numbers or more, x y z");
         const glm::dvec3 position(numbers[0], numbers[1], numbers[2]);
-        if (!isFinite(position) ||
-            std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) > farthest)
-            throw fail("a point is not finite, or too far away");
+        if (!isWithinReach(position)) throw fail("a point is not finite, or too far away");
         mesh.positions.push_back(position);
         mesh.normals.emplace_back(0);
         colors.emplace_back(1);

@@ -6,8 +6,7 @@
 #include "core/image.h"
 #include "geometry/mesh.h"
 #include "support/catch.h"
-#include "support/message_of.h"
-#include "support/scratch.h"
+#include "support/model_text.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -99,8 +98,7 @@ std::string object(const std::string& attributes, const std::string& triangles =
 }
 
 Mesh read(const std::string& bytes) {
-    const Scratch scratch;
-    return loadMesh(scratch.write("m.3mf", bytes));
+    return modelOf("m.3mf", bytes);
 }
 
 void close(const glm::dvec3& a, const glm::dvec3& b) {
@@ -207,13 +205,7 @@ TEST_CASE("3MF: materials, colours of corners and images", "[3mf][model][materia
 }
 
 TEST_CASE("3MF: what is not read is told or refused", "[3mf][model]") {
-    const Scratch scratch;
-    const auto refusal = [&](const std::string& bytes) {
-        const std::string file = scratch.write("m.3mf", bytes), message = messageOf([&] { loadMesh(file); });
-        CHECK(message.starts_with(file + ": "));
-        CHECK(message.find('\n') == std::string::npos);
-        return message;
-    };
+    const auto refusal = [](const std::string& bytes) { return refusalOf("m.3mf", bytes); };
     const std::string good = package(part(object("id=\"1\""), "<item objectid=\"1\"/>"));
     CHECK_THAT(refusal("PK no zip"), Contains("cannot be read as 3MF: "));
     for (size_t length = 0; length < good.size(); length += 97)
@@ -231,5 +223,5 @@ TEST_CASE("3MF: what is not read is told or refused", "[3mf][model]") {
             "</b:beamlattice></mesh></object>",
         "<item objectid=\"1\"/>"));
     CHECK_THAT(refusal(beams), Contains("the beams of a lattice are not read, 1 of them"));
-    CHECK(loadMesh(scratch.write("m.3mf", beams), true).triangles.size() == 4);
+    CHECK(modelOf("m.3mf", beams, true).triangles.size() == 4);
 }

@@ -10,8 +10,7 @@
 #include "geometry/mesh.h"
 #include "support/catch.h"
 #include "support/gltf_text.h"
-#include "support/message_of.h"
-#include "support/scratch.h"
+#include "support/model_text.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -19,13 +18,16 @@ using Catch::Contains;
 
 namespace {
 
+const char* nameOf(const std::string& bytes) {
+    return bytes.starts_with("glTF") ? "m.glb" : "m.gltf";
+}
+
 Mesh read(const std::string& bytes, bool lenient = false) {
-    const Scratch scratch;
-    return loadMesh(scratch.write(bytes.starts_with("glTF") ? "m.glb" : "m.gltf", bytes), lenient);
+    return modelOf(nameOf(bytes), bytes, lenient);
 }
 
 std::string refusal(const std::string& bytes) {
-    return messageOf([&] { read(bytes); });
+    return refusalOf(nameOf(bytes), bytes);
 }
 
 void checkBox(const Mesh& mesh, const glm::dvec3& low, const glm::dvec3& high) {

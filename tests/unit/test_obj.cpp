@@ -3,12 +3,10 @@
 
 #include "author/from_mesh.h"
 #include "core/image.h"
-#include "geometry/announced.h"
 #include "geometry/mesh.h"
 #include "geometry/polygon.h"
 #include "support/catch.h"
-#include "support/message_of.h"
-#include "support/scratch.h"
+#include "support/model_text.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -18,13 +16,11 @@ namespace {
 const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 Mesh read(const std::string& text) {
-    const Scratch scratch;
-    return loadMesh(scratch.write("m.obj", text));
+    return modelOf("m.obj", text);
 }
 
 std::string refused(const std::string& text) {
-    const Scratch scratch;
-    return messageOf([&] { loadMesh(scratch.write("m.obj", text)); });
+    return refusalOf("m.obj", text);
 }
 
 double areaOf(const Mesh& mesh) {
@@ -323,72 +319,6 @@ TEST_CASE("a format of single precision says what it loses far from the origin",
     const std::string far = stl(6.5e6, 0.5);
     CHECK_THAT(messageOf([&] { loadMesh(far); }), Catch::Contains("m.stl: its coordinates reach 6.5e+06 m"));
     CHECK(loadMesh(far, true).notes.size() == 1);
-}
-
-TEST_CASE("what a text says of its triangles is held against what was read", "[model][obj]") {
-    const Scratch scratch;
-    const auto loss = [&](const char* name, const std::string& text) {
-        return messageOf([&] { loadMesh(scratch.write(name, text)); });
-    };
-    const std::string facet =
-        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
-        "endfacet\n";
-    CHECK(loss("m.stl", "solid a\n" + facet + facet + "endsolid a\n") == "");
-    const std::string surface = "SURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n";
-    const auto ac = [&](int count) {
-        return concat(
-            "AC3Db\nMATERIAL \"\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\n"
-            "kids 1\nOBJECT poly\nname \"a\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf ",
-            count, "\n", surface, surface, "kids 0\n");
-    };
-    CHECK(loss("m.ac", ac(2)) == "");
-    CHECK_THAT(loss("m.ac", ac(1)),
-               Catch::Contains("m.ac: its text has 2 triangles, and its reader gives 1"));
-    const auto ase = [&](int count) {
-        return concat(
-            "*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*MESH {\n*MESH_NUMVERTEX 4\n"
-            "*MESH_NUMFACES ",
-            count,
-            "\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0 0 0\n*MESH_VERTEX 1 1 0 0\n"
-            "*MESH_VERTEX 2 0 1 0\n*MESH_VERTEX 3 1 1 0\n}\n*MESH_FACE_LIST {\n"
-            "*MESH_FACE 0: A: 0 B: 1 C: 2\n*MESH_FACE 1: A: 1 B: 3 C: 2\n}\n}\n}\n");
-    };
-    CHECK(loss("m.ase", ase(2)) == "");
-    CHECK_THAT(loss("m.ase", ase(1)),
-               Catch::Contains("m.ase: its text has 2 triangles, and its reader gives 1"));
-}
-
-TEST_CASE("a COLLADA scene has the triangles of its nodes, and none where it has no mesh", "[model]") {
-    const Scratch scratch;
-    const auto dae = [&](const std::string& primitives, const std::string& nodes) {
-        const std::string text = concat(
-            R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<library_geometries><geometry id="g" name="g"><mesh>
-<source id="p"><float_array id="f" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
-<accessor source="#f" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-<param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)",
-            primitives, R"(</mesh></geometry></library_geometries><library_visual_scenes>
-<visual_scene id="s" name="s">)",
-            nodes,
-            R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
-        return scratch.write("m.dae", text);
-    };
-    const std::string input = R"(<input semantic="VERTEX" source="#v" offset="0"/>)";
-    const std::string place = R"(<instance_geometry url="#g"/>)";
-    const auto node = [](const std::string& in) { return concat("<node>", in, "</node>"); };
-    const std::string quad =
-        concat(R"(<polylist count="1">)", input, "<vcount>4</vcount><p>0 1 2 3</p></polylist>");
-    CHECK(loadMesh(dae(quad, node(place))).triangles.size() == 2);
-    const std::string moved = node("<translate>2 0 0</translate>" + place);
-    CHECK(loadMesh(dae(quad, node(place + moved) + node(moved))).triangles.size() == 6);
-    const std::string strips =
-        concat("<tristrips count=\"2\">", input, "<p>0 1 3 2</p><p>0 1 2</p></tristrips><lines count=\"1\">",
-               input, "<p>0 2</p></lines>");
-    CHECK(trianglesOfCollada(readFile(dae(strips, node(place)))) == 3);
-    CHECK(loadMesh(dae(strips, node(place))).triangles.size() == 3);
-    CHECK_FALSE(trianglesOfCollada(readFile(dae(quad, node(R"(<instance_geometry url="other.dae#g"/>)")))));
-    CHECK_THAT(messageOf([&] { loadMesh(dae(quad, node(""))); }), Catch::Contains("m.dae: has no triangles"));
 }
 
 TEST_CASE("a sheet at map coordinates is the molecule that it is at the origin", "[model][obj][from-mesh]") {

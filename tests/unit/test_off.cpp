@@ -1,9 +1,6 @@
 // Models in OFF, as Geomview and others write it.
-#include "core/error.h"
-#include "geometry/mesh.h"
 #include "support/catch.h"
-#include "support/message_of.h"
-#include "support/scratch.h"
+#include "support/model_text.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -13,14 +10,11 @@ namespace {
 const std::string corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 Mesh off(const std::string& text) {
-    const Scratch scratch;
-    return loadMesh(scratch.write("m.off", text));
+    return modelOf("m.off", text);
 }
 
 std::string refusal(const std::string& text) {
-    const std::string message = messageOf([&] { off(text); });
-    const size_t at = message.find("m.off: ");
-    return at == std::string::npos ? message : message.substr(at + 7);
+    return refusalOf("m.off", text);
 }
 
 }  // namespace
@@ -62,18 +56,18 @@ TEST_CASE("what of an OFF file is not read is told, and what is wrong with its l
                              "opacity is not drawn"})
         CHECK_THAT(notes, Catch::Contains(told));
     CHECK(refusal("4OFF\n1 0 0\n0 0 0 1\n") ==
-          "line 1: \"4OFF\" is not read: expected OFF, with ST, C or N before it");
-    CHECK(refusal("OFF BINARY\n") == "line 1: OFF as bytes is not read: save it as text");
-    CHECK(refusal("ply\n") == "line 1: expected \"OFF\", with ST, C or N before it");
-    CHECK(refusal("OFF\n4 one 0\n") == "line 2: expected counts of vertices and faces as numbers");
-    CHECK(refusal("OFF\n1e9 1 0\n") == "line 2: expected counts from 0 to 2^28, found 1000000000");
-    CHECK(refusal("OFF\n4 1 0\n0 0 0\n") == "line 3: the text ends where a vertex is expected");
-    CHECK(refusal("OFF\n4 1 0\n0 0\n") == "line 3: expected the numbers of a vertex: x y z");
-    CHECK(refusal("OFF\n1 0 0\n0 0 nan\n") == "line 3: a vertex is not finite, or too far away");
+          "m.off: line 1: \"4OFF\" is not read: expected OFF, with ST, C or N before it");
+    CHECK(refusal("OFF BINARY\n") == "m.off: line 1: OFF as bytes is not read: save it as text");
+    CHECK(refusal("ply\n") == "m.off: line 1: expected \"OFF\", with ST, C or N before it");
+    CHECK(refusal("OFF\n4 one 0\n") == "m.off: line 2: expected counts of vertices and faces as numbers");
+    CHECK(refusal("OFF\n1e9 1 0\n") == "m.off: line 2: expected counts from 0 to 2^28, found 1000000000");
+    CHECK(refusal("OFF\n4 1 0\n0 0 0\n") == "m.off: line 3: the text ends where a vertex is expected");
+    CHECK(refusal("OFF\n4 1 0\n0 0\n") == "m.off: line 3: expected the numbers of a vertex: x y z");
+    CHECK(refusal("OFF\n1 0 0\n0 0 nan\n") == "m.off: line 3: a vertex is not finite, or too far away");
     for (const char* face : {"3 0 1", "-1 0 1 2", "1.5 0 1 2"})
         CHECK(refusal("OFF\n4 1 0\n" + corners + face + "\n") ==
-              "line 7: expected a face: how many corners, and their vertices");
+              "m.off: line 7: expected a face: how many corners, and their vertices");
     for (const char* vertex : {"9", "-1", "0.5"})
         CHECK(refusal("OFF\n4 1 0\n" + corners + "3 0 1 " + vertex + "\n") ==
-              concat("line 7: a face has a corner at vertex ", vertex, " of 4"));
+              concat("m.off: line 7: a face has a corner at vertex ", vertex, " of 4"));
 }

@@ -8,8 +8,7 @@
 #include "geometry/mesh.h"
 #include "geometry/polygon.h"
 #include "support/catch.h"
-#include "support/message_of.h"
-#include "support/scratch.h"
+#include "support/model_text.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -54,16 +53,11 @@ std::string triangle(const std::string& properties, const std::string& a, const 
 }
 
 Mesh read(const std::string& bytes) {
-    const Scratch scratch;
-    return loadMesh(scratch.write("m.ply", bytes));
+    return modelOf("m.ply", bytes);
 }
 
 std::string refusal(const std::string& bytes) {
-    const Scratch scratch;
-    const std::string file = scratch.write("m.ply", bytes), message = messageOf([&] { loadMesh(file); });
-    REQUIRE(message.starts_with(file + ":"));
-    CHECK(message.find('\n') == std::string::npos);
-    return "m.ply" + message.substr(file.size());
+    return refusalOf("m.ply", bytes);
 }
 
 double areaOf(const Mesh& mesh) {
