@@ -293,7 +293,8 @@ std::string asText(const glm::dvec3& place) {
 
 Verdict checkScene(const std::string& file, bool lenient) {
     FieldWatch watch;
-    const Scene scene = readScene(file, watch.baking(), lenient);
+    const Scene scene =
+        readScene(file, {watch.baking(), lenient, [](const Scene& read) { checkPlan(read); }});
     const Plan plan = compile(scene);
     for (const Group& group : scene.groups)
         checkTexture(group.molecule);

@@ -187,7 +187,7 @@ std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warnin
         throw Error(
             "--resolution, --error, --shell and --thickness are of a model file: a scene has its own");
     FieldWatch watch;
-    const Scene scene = readScene(options.files.front(), watch.baking(), options.lenient);
+    const Scene scene = readScene(options.files.front(), {watch.baking(), options.lenient});
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
         if (options) {
             findScenes(*options);
             if (!options->files.empty()) keepToSandbox(*options, options->files.front());
-            const shoal::CompilingWatch compiling;
+            const shoal::BusyWatch busy;
             code = options->command(*options);
         }
         std::cout.flush();

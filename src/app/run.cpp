@@ -336,6 +336,10 @@ static bool hasLarge(const Scene& scene) {
     });
 }
 
+static void checkSmall(const Scene& scene) {
+    hasLarge(scene) ? checkCounts(scene) : checkPlan(scene);
+}
+
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // Mistakes in the files are reported before a context is made; what the context cannot hold, once it is
@@ -343,7 +347,8 @@ int runCommand(const Options& options) {
     const bool chooses = options.files.empty() || fs::is_directory(options.files.front());
     if (chooses && !window) return listInstead(options);
     std::optional<Loaded> loaded;
-    if (!chooses) loaded = {readScene(options.files.front(), options), {}};
+    if (!chooses)
+        loaded = {readScene(options.files.front(), options, options.error ? checkCounts : checkSmall), {}};
     const bool plans = loaded && !options.error, large = plans && hasLarge(loaded->scene);
     if (plans && !large) planScene(*loaded);
     gpu::ContextOptions wanted = hiddenContext(options);

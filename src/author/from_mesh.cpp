@@ -10,6 +10,7 @@
 #include "author/mass_spread.h"
 #include "author/placed_mesh.h"
 #include "author/springs.h"
+#include "core/activity.h"
 #include "core/error.h"
 #include "geometry/close_holes.h"
 #include "geometry/subdivide.h"
@@ -70,6 +71,7 @@ class Maker {
     Molecule& molecule() { return made_.molecule; }
 
     void examine() {
+        const Activity now("looking for what the mesh encloses");
         SurfaceReport report = examineSurface(shape_);
         if (report.triangles <= report.degenerate) throw Error("every triangle of the mesh has no area");
         made_.area = report.area;
@@ -139,6 +141,7 @@ class Maker {
     }
 
     void makeCoarse() {
+        const Activity now("simplifying the mesh");
         using Springs = FromMesh::Springs;
         const int vertices = wantedVertices();
         if (options_.rings) {
@@ -298,6 +301,7 @@ class Maker {
     }
 
     void addSkin() {
+        const Activity now("binding the skin");
         if (options_.images) {
             made_.image = gatherColors(mesh_, made_.notes);
             if (made_.image) molecule().material.color = glm::dvec3(1);

@@ -12,6 +12,7 @@
 #include "compile/pack.h"
 #include "compile/scene_warnings.h"
 #include "compile/surface_pair.h"
+#include "core/activity.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/random.h"
@@ -271,8 +272,11 @@ void checkCounts(const Scene& scene) {
     }
 }
 
-Plan compile(const Scene& scene, const CompileOptions& options) {
-    checkScene(scene);
+namespace {
+
+// What a scene says of a step, and its groups with their needs, solvers and passes: nothing is placed, and no
+// distance field is read. Error: as checkPlan().
+Plan planGroups(const Scene& scene, const CompileOptions& options) {
     checkCounts(scene);
     for (const Collider& collider : scene.colliders)
         checkTurn(scene, collider);
@@ -288,7 +292,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), isLong);
     plan.colliderCount = scene.colliders.size();
     plan.jointContact = respondTogether(scene.colliders);
-
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         GroupPlan group = layOut(scene, i, options, plan);
         if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
@@ -300,23 +303,44 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         group.needs.acceleration =
             group.needs.springs && (group.solver == SolverKind::leapfrog ||
                                     (group.solver == SolverKind::euler && group.needs.collide));
-        group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
-        const double vertices = double(group.count) * group.vertexCount;
-        namingMemory(
-            scene.groups[i].location,
-            concat(group.count, " molecules of ", group.vertexCount, " vertices in \"", group.name, "\""),
-            double(sizeof(glm::vec3)) * (2 * vertices + 2 * group.count), [&] { packStart(scene, group); });
-        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver),
-                                  fitsLane(group) || group.isStill());  // which is drawn in fragments
-        if (group.needs.liveSprings) {
-            group.springNumbers = springNumbers(scene.groups[i].molecule);
-            group.springFrequencies = springFrequencies(scene.groups[i].molecule);
-        }
-        if (group.factored()) group.shape = scene.groups[i].molecule;
         checkMuscles(scene, scene.groups[i], plan.warnings);
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }
+    return plan;
+}
+
+// Places the molecules of a group, and makes of its molecule what kernels and passes read.
+void fill(GroupPlan& group, const Scene& scene, Plan& plan) {
+    const Group& source = scene.groups[group.index];
+    const Molecule& molecule = source.molecule;
+    group.topologyBase = packTopology(molecule, group, plan.topology);
+    const double vertices = double(group.count) * group.vertexCount;
+    const std::string what =
+        concat(group.count, " molecules of ", group.vertexCount, " vertices in \"", group.name, "\"");
+    const Activity placing("placing " + what);
+    namingMemory(source.location, what, double(sizeof(glm::vec3)) * (2 * vertices + 2 * group.count),
+                 [&] { packStart(scene, group); });
+    group.kernel = kernelText(molecule, group.needs, solver(group.solver),
+                              fitsLane(group) || group.isStill());  // which is drawn in fragments
+    if (group.needs.liveSprings) {
+        group.springNumbers = springNumbers(molecule);
+        group.springFrequencies = springFrequencies(molecule);
+    }
+    if (group.factored()) group.shape = molecule;
+}
+
+}  // namespace
+
+void checkPlan(const Scene& scene) {
+    planGroups(scene, {});
+}
+
+Plan compile(const Scene& scene, const CompileOptions& options) {
+    checkScene(scene);
+    Plan plan = planGroups(scene, options);
+    for (GroupPlan& group : plan.groups)
+        fill(group, scene, plan);
     plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
     plan.school = planSchools(scene, plan.groups);

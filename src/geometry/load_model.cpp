@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/activity.h"
 #include "core/cache_folder.h"
 #include "core/confined.h"
 #include "core/error.h"
@@ -197,6 +198,7 @@ void tellOfRounding(Mesh& mesh) {
 Mesh loadMesh(const std::string& file, bool lenient) {
     const FileReader readable(file);  // says what is no file, or cannot be opened
     const bool trusted = !environment("SHOAL_TRUST_MODELS").empty();
+    const Activity reading(concat("reading ", file));
     Mesh mesh = trusted ? readModel({file, [](uint64_t) {}}) : readConfined(file);
     if (!lenient && !mesh.losses.empty())
         throw Error(Location{file}, mesh.losses.front(), " (--lenient reads it all the same)");

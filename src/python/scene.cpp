@@ -88,7 +88,7 @@ PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder)
         const std::string word = pathOf(source, "a scene is a file, a name or a dict").string();
         SignalWatch watch;
         const py::gil_scoped_release release;
-        return {readScene(needScene(word), bakingThatEnds(watch))};
+        return {readScene(needScene(word), {bakingThatEnds(watch)})};
     }
     MoleculeFiles files;
     py::dict whole = source.attr("copy")();
@@ -113,7 +113,7 @@ PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder)
     const std::string text = jsonOf(whole), file = (folder / "<scene>").string();
     SignalWatch watch;
     const py::gil_scoped_release release;
-    return {parseScene(text, file, bakingThatEnds(watch))};
+    return {parseScene(text, file, {bakingThatEnds(watch)})};
 }
 
 }  // namespace shoal::python

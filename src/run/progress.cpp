@@ -10,6 +10,7 @@
 #include <iostream>
 #include <set>
 
+#include "core/activity.h"
 #include "core/cache_folder.h"
 #include "core/printable.h"
 #include "gpu/program.h"
@@ -85,16 +86,26 @@ void FieldWatch::show(double share) {
     bar_->reach(now);
 }
 
-CompilingWatch::CompilingWatch(std::function<void(const std::string&)> tell,
-                               std::chrono::milliseconds patience)
-    : tell_(std::move(tell)), patience_(patience), thread_([this] { watch(); }) {}
+namespace {
 
-void CompilingWatch::sayThatItCompiles(const std::string& label) {
-    std::fprintf(stderr, "shoal: waiting for the driver, which compiles \"%s\" (its cache keeps that)\n",
-                 printable(label).c_str());
+std::string whatGoesOn() {
+    const std::string compiled = gpu::firstUse();
+    if (!compiled.empty())
+        return concat("waiting for the driver, which compiles \"", compiled, "\" (its cache keeps that)");
+    const std::string other = activity();
+    return other.empty() ? "" : concat("still ", other);
 }
 
-CompilingWatch::~CompilingWatch() {
+}  // namespace
+
+BusyWatch::BusyWatch(std::function<void(const std::string&)> tell, std::chrono::milliseconds patience)
+    : tell_(std::move(tell)), patience_(patience), thread_([this] { watch(); }) {}
+
+void BusyWatch::say(const std::string& what) {
+    std::fprintf(stderr, "shoal: %s\n", printable(what).c_str());
+}
+
+BusyWatch::~BusyWatch() {
     {
         const std::lock_guard lock(guard_);
         ends_ = true;
@@ -103,7 +114,7 @@ CompilingWatch::~CompilingWatch() {
     thread_.join();
 }
 
-void CompilingWatch::watch() {
+void BusyWatch::watch() {
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are the main thread's
@@ -112,7 +123,7 @@ void CompilingWatch::watch() {
     Clock::time_point since;
     std::unique_lock lock(guard_);
     while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; })) {
-        const std::string now = gpu::firstUse();
+        const std::string now = whatGoesOn();
         if (now != last) since = Clock::now();
         if (!now.empty() && now == last && Clock::now() - since >= patience_ && told.insert(now).second)
             tell_(now);

@@ -48,17 +48,18 @@ class FieldWatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Tells, of each program once, its label, while this lives and the driver has been compiling it for so long.
-class CompilingWatch {
+// Tells, each once, what has been going on for so long while this lives: which program the driver compiles,
+// or else the Activity (core/activity.h).
+class BusyWatch {
   public:
-    explicit CompilingWatch(std::function<void(const std::string&)> tell = sayThatItCompiles,
-                            std::chrono::milliseconds patience = std::chrono::seconds(2));
-    ~CompilingWatch();
-    CompilingWatch(const CompilingWatch&) = delete;
-    CompilingWatch& operator=(const CompilingWatch&) = delete;
+    explicit BusyWatch(std::function<void(const std::string&)> tell = say,
+                       std::chrono::milliseconds patience = std::chrono::seconds(2));
+    ~BusyWatch();
+    BusyWatch(const BusyWatch&) = delete;
+    BusyWatch& operator=(const BusyWatch&) = delete;
 
   private:
-    static void sayThatItCompiles(const std::string& label);  // on stderr
+    static void say(const std::string& what);  // on stderr
     void watch();
 
     std::function<void(const std::string&)> tell_;

@@ -23,12 +23,21 @@ void apply(const RunRequest& request, Scene& scene) {
     }
 }
 
-Scene readScene(const std::string& file, const RunRequest& request) {
-    FieldWatch watch;
-    Scene out = readScene(file, watch.baking(), request.lenient);
-    apply(request, out);
-    checkCounts(out);
+RunRequest RunRequest::forAnother() const {
+    RunRequest out;
+    out.path = path;
+    out.lanes = lanes;
+    out.inPlace = inPlace;
+    out.lenient = lenient;
     return out;
+}
+
+Scene readScene(const std::string& file, const RunRequest& request, void (*check)(const Scene&)) {
+    FieldWatch watch;
+    return readScene(file, {watch.baking(), request.lenient, [&](Scene& scene) {
+                                apply(request, scene);
+                                check(scene);
+                            }});
 }
 
 void planScene(Loaded& loaded) {
@@ -37,7 +46,7 @@ void planScene(Loaded& loaded) {
 }
 
 Loaded loadScene(const std::string& file, const RunRequest& request) {
-    Loaded out{readScene(file, request), {}};
+    Loaded out{readScene(file, request, checkPlan), {}};
     planScene(out);
     return out;
 }

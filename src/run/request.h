@@ -30,14 +30,18 @@ struct RunRequest {
     std::string save;             // a checkpoint
     std::vector<int> saveFrames;  // empty: the last
     std::string resume;           // a checkpoint to go on from
+
+    // What of it binds another scene as well.
+    RunRequest forAnother() const;
 };
 
 // Puts the values that were asked for in place of the scene's.
 void apply(const RunRequest& request, Scene& scene);
 
 // Reads the scene of a file, with what was asked for; shows the baking of fields. Error: the reader's, and
-// checkCounts'.
-Scene readScene(const std::string& file, const RunRequest& request);
+// what `check` refuses, before anything is baked.
+Scene readScene(const std::string& file, const RunRequest& request,
+                void (*check)(const Scene&) = checkCounts);
 
 // That scene and its plan.
 struct Loaded {

@@ -1,14 +1,17 @@
 #include "window/running_scene.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/file.h"
+#include "core/json_build.h"
 #include "gpu/program_cache.h"
 #include "molecule/molecule_file.h"
 #include "run/progress.h"
 #include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "simulate/carry_over.h"
+#include "window/json_rows.h"
 
 namespace shoal::window {
 
@@ -212,9 +215,8 @@ JsonValue RunningScene::json() const {
 
 Scene RunningScene::read(const std::string& text) const {
     FieldWatch baking;
-    Scene out = parseScene(text, original_.file, baking.baking(), request_.lenient);
-    apply(request_, out);
-    return out;
+    return parseScene(text, original_.file,
+                      {baking.baking(), request_.lenient, [this](Scene& made) { apply(request_, made); }});
 }
 
 // Builds `fresh` in its place. Without `keepsChoices` the choices give way to what it says.
@@ -260,6 +262,20 @@ void RunningScene::change(const JsonValue& after) {
     if (then == now) return;
     go(then, undo_);
     redo_.clear();
+}
+
+void RunningScene::add(const std::string& file) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::absolute(scene.file).parent_path();
+    const std::string name = fs::relative(file, folder).generic_string();
+    const bool molecule = fs::path(file).extension() == ".json";
+    JsonValue root = json();
+    const char* list = molecule ? "groups" : "models";
+    const JsonValue* there = root.find(list);
+    JsonValue longer = there ? *there : JsonValue::makeArray();
+    longer.items.push_back(molecule ? smallestGroup(longer, name) : object(key("file", name)));
+    setMember(root, list, std::move(longer));
+    change(root);
 }
 
 void RunningScene::undo() {

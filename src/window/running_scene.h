@@ -57,6 +57,8 @@ class RunningScene {
     // order and layout of the file stay.
     JsonValue json() const;
     void change(const JsonValue& after);
+    // Adds the molecule of a file as a group, and any other file as a model.
+    void add(const std::string& file);
     // Take back what change() did, and edits of the scene since, and do it again.
     bool mayUndo() const { return !undo_.empty() || edited(); }
     bool mayRedo() const { return !redo_.empty(); }

@@ -1,4 +1,6 @@
 // `shoal field`.
+#include <filesystem>
+
 #include "cli/shoal_command.h"
 #include "core/image.h"
 #include "support/catch.h"
@@ -35,6 +37,38 @@ TEST_CASE("field: reports a model, from the cache the second time", "[cli][field
     CHECK(again.out.find("from the cache") != std::string::npos);
     CHECK(again.out.find("closed") != std::string::npos);
     CHECK(again.err.empty());
+}
+
+TEST_CASE("check and run bake no field for a substep that is too long", "[cli][field]") {
+    const Scratch scratch;
+    scratch.write("crate.obj", crate);
+    scratch.write("stiff.json", R"({"format": "shoal-molecule-1", "name": "stiff",
+ "defaults": {"mass": 0.01, "stiffness": 10000}, "vertices": [{"position": [0, 0, 0]},
+ {"position": [0.1, 0, 0]}], "springs": [{"a": 0, "b": 1}]})");
+    const std::string scene = scratch.write("s.scene.json", R"({"format": "shoal-scene-1",
+ "solver": {"method": "leapfrog", "substeps": 1}, "models": [{"name": "crate", "file": "crate.obj"}],
+ "colliders": [{"type": "distanceField", "model": "crate", "resolution": 8}],
+ "groups": [{"molecule": "stiff.json", "place": {"on": "list", "items": [{"position": [0, 3, 0]}]}}]})");
+    const Surroundings surroundings{.environment = {{"SHOAL_CACHE", scratch.path("cache")}}};
+    const auto isBaked = [&] {
+        if (!std::filesystem::exists(scratch / "cache")) return false;
+        for (const auto& entry : std::filesystem::directory_iterator(scratch / "cache"))
+            if (entry.path().extension() == ".shoal-field") return true;
+        return false;
+    };
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"check", scene}, {"run", scene, "--headless", "--frames", "1"}}) {
+        const Outcome refused = runShoal(command, surroundings);
+        INFO(refused.err);
+        CHECK(refused.code == 1);
+        CHECK(refused.err.find("use at least") != std::string::npos);
+        CHECK_FALSE(isBaked());
+    }
+    const Outcome mended =
+        runShoal({"run", scene, "--headless", "--frames", "1", "--substeps", "40"}, surroundings);
+    INFO(mended.err);
+    CHECK(mended.code == 0);
+    CHECK(isBaked());
 }
 
 TEST_CASE("field: draws a slice", "[cli][field]") {

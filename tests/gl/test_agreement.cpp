@@ -135,9 +135,9 @@ TEST_CASE("compute shaders and fragments agree on every scene with contact, birt
                     furthest = std::max(furthest, glm::length(anchors + places) / group.size);
                 }
                 INFO(group.name << ", frame " << frame);
-                // contact passes on in its iterations what compilers round otherwise: 2.2e-5 was seen with
-                // Mesa 25, and 3.4e-5 on a GPU
-                CHECK(furthest < 10 * test::Agreement::tolerance);
+                // Contact passes on in its iterations what compilers round otherwise: 2.2e-5 was seen with
+                // Mesa 25, and 3.4e-5 on a GPU.
+                CHECK(furthest < (plan.contact.any() ? 10 : 1) * test::Agreement::tolerance);
                 CHECK(a.groups[g].seeds == b.groups[g].seeds);
                 CHECK(a.groups[g].totals == b.groups[g].totals);
             }

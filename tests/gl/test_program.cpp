@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/activity.h"
 #include "core/error.h"
 #include "gl/gl_test.h"
 #include "gpu/framebuffer.h"
@@ -40,21 +41,27 @@ static std::vector<float> draw(const Program& program, const std::vector<ColorTa
     return texels;
 }
 
-TEST_CASE("what the driver compiles for long is told once, by its label", "[program]") {
+TEST_CASE("what takes long is told once: a program by its label, else what goes on", "[program]") {
     using namespace std::chrono_literals;
     const Program program(testContext(),
                           withFragment("out vec4 color;\nvoid main() { color = vec4(1.0); }\n"));
     const Program other(testContext(), withFragment("out vec4 color;\nvoid main() { color = vec4(2.0); }\n"));
     std::vector<std::string> told;
     {
-        const shoal::CompilingWatch watch([&](const std::string& label) { told.push_back(label); }, 40ms);
+        const shoal::BusyWatch watch([&](const std::string& what) { told.push_back(what); }, 40ms);
+        const shoal::Activity outer("placing leaves");
         program.use();  // for the first time, and then it does not end for long
         std::this_thread::sleep_for(400ms);
         program.use();
         std::this_thread::sleep_for(200ms);
         CHECK(firstUse().empty());
+        const shoal::Activity inner("reading leaf.obj");
+        std::this_thread::sleep_for(200ms);
     }
-    CHECK(told == std::vector<std::string>{"test"});
+    CHECK(shoal::activity().empty());
+    CHECK(told ==
+          std::vector<std::string>{"waiting for the driver, which compiles \"test\" (its cache keeps that)",
+                                   "still placing leaves", "still reading leaf.obj"});
     other.use();
     CHECK(firstUse() == "test");
     endFirstUse();

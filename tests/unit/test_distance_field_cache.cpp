@@ -59,7 +59,7 @@ std::string sceneWith(const std::string& keys) {
 Scene readWith(const Scratch& scratch, const std::string& keys, const std::string& model = crate) {
     scratch.write("crate.obj", model);
     scratch.write("blade.json", smallMolecule);
-    return readScene(scratch.write("field.scene.json", sceneWith(keys)), {scratch.path("cache"), {}});
+    return readScene(scratch.write("field.scene.json", sceneWith(keys)), {{scratch.path("cache"), {}}});
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ TEST_CASE("a scene bakes when all else of it is right", "[distanceField]") {
     std::string text = sceneWith(R"("model": "crate", "resolution": 8)");
     text.insert(text.rfind("\"count\""), "\"drag\": -1, ");
     const std::string file = scratch.write("wrong.scene.json", text);
-    const std::string refusal = messageOf([&] { readScene(file, {scratch.path("cache"), {}}); });
+    const std::string refusal = messageOf([&] { readScene(file, {{scratch.path("cache"), {}}}); });
     CHECK(refusal.find("$.groups[0].drag") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(scratch / "cache"));
 }
@@ -108,7 +108,7 @@ TEST_CASE("a model stands on the ground", "[distanceField]") {
     scratch.write("blade.json", smallMolecule);
     text.insert(text.find("\"file\""),
                 R"("stand": true, "position": [5, 0, 1], "rotation": {"axis": [1, 0, 1], "angle": 0.7}, )");
-    const Scene scene = readScene(scratch.write("s.scene.json", text), {{}, {}});
+    const Scene scene = readScene(scratch.write("s.scene.json", text), {{{}, {}}});
     const Mesh& mesh = scene.models[0].mesh;
     CHECK(mesh.low.y == Approx(0).margin(1e-12));
     CHECK(mesh.high.y > 1);

@@ -74,13 +74,13 @@ const Description& describe(const Scene*) {
     return it;
 }
 
-Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking, bool lenient) {
+Scene parseScene(const std::string& text, const std::string& file, const SceneOptions& options) {
     const JsonValue root = parseJson(text, file);
     refuseHugeNumbers(root, file);
 
     Scene scene;
     scene.file = file;
-    SceneReading reading{scene.models, scene.warnings, lenient};
+    SceneReading reading{scene.models, scene.warnings, options.lenient};
     describe(&scene).readFile(root, file, scene, &reading);
     if (const JsonValue* comment = root.find("comment")) scene.comment = comment->text;
     for (Group& group : scene.groups)
@@ -90,7 +90,8 @@ Scene parseScene(const std::string& text, const std::string& file, const FieldBa
     for (size_t g = 0; g < scene.groups.size(); ++g)
         for (Warning& warning : warningsOf(scene.groups[g], Where(whole).in("groups", g)))
             scene.warnings.push_back(std::move(warning));
-    bakeFields(scene, baking, Where(whole));
+    if (options.beforeBaking) options.beforeBaking(scene);
+    bakeFields(scene, options.baking, Where(whole));
     return scene;
 }
 
@@ -98,8 +99,8 @@ void checkScene(const Scene& scene) {
     describe(&scene).check(scene, Where(), largestNumber);
 }
 
-Scene readScene(const std::string& file, const FieldBaking& baking, bool lenient) {
-    return parseScene(readFile(file), file, baking, lenient);
+Scene readScene(const std::string& file, const SceneOptions& options) {
+    return parseScene(readFile(file), file, options);
 }
 
 // ---- The files that a scene is made of

@@ -3,6 +3,7 @@
 // keeps the struct's default. File names inside are relative to the scene file's folder.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,19 @@
 
 namespace shoal {
 
+struct SceneOptions {
+    FieldBaking baking{cacheFolder(), {}};
+    bool lenient = false;  // what is lost of a model is a warning instead (geometry/mesh.h)
+    // Is called when all but the distance fields is read, and may change the scene: what it refuses, nobody
+    // has waited for.
+    std::function<void(Scene&)> beforeBaking{};
+};
+
 // Reads a scene with its molecules, models and fields. Every mistake is one Error with file, line, column
 // and JSON path; a mistake inside a file that the scene names is reported at that file.
 // Distance fields are baked here, or taken from where they are kept.
-// `lenient`: what is lost of a model is a warning instead (geometry/mesh.h).
-Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolder(), {}},
-                bool lenient = false);
-Scene parseScene(const std::string& text, const std::string& file,
-                 const FieldBaking& baking = {cacheFolder(), {}}, bool lenient = false);
+Scene readScene(const std::string& file, const SceneOptions& options = {});
+Scene parseScene(const std::string& text, const std::string& file, const SceneOptions& options = {});
 
 // The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
 // of what is wrong and no file. What only files say (which keys go together) is not asked.

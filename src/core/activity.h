@@ -1,0 +1,23 @@
+// What the program is busy with, for a user who waits: BusyWatch (run/progress.h) tells what takes long.
+#pragma once
+
+#include <string>
+
+namespace shoal {
+
+// The program does what the text says ("reading leaf.obj") while this lives.
+class Activity {
+  public:
+    explicit Activity(std::string what);
+    ~Activity();
+    Activity(const Activity&) = delete;
+    Activity& operator=(const Activity&) = delete;
+
+  private:
+    std::string outer_;
+};
+
+// Returns what the innermost Activity says, for any thread to ask; empty: there is none.
+std::string activity();
+
+}  // namespace shoal
