@@ -1,5 +1,5 @@
 // The resolved light as a picture for the screen: exposure, film curve, sRGB, and a little dither, which keeps
-// the sky's gradient free of bands. Variants: BEAMS (water/rays.frag), OCCLUSION (render/occlusion.frag); CLEAR, whose
+// the sky's gradient free of bands. Variants: BEAMS (render/beams.frag), OCCLUSION (render/occlusion.frag); CLEAR, whose
 // light is multiplied by its alpha, the share of the pixel that is covered, and whose picture is not; LINEAR, light as it is
 // for a compositor, multiplied by alpha.
 

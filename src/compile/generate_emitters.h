@@ -1,4 +1,4 @@
-// Emitters as GLSL: shaders/particles/spawn.glsl calls emitFrom. What sliders and paths move is in a uniform
+// Emitters as GLSL: shaders/births/spawn.glsl calls emitFrom. What sliders and paths move is in a uniform
 // array; kinds, and the tables of surfaces, are in the text.
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace shoal {
 
 // void emitFrom(int emitter, uint seed, float time, Source source, out Start start), with the structures of
-// shaders/particles/spawn.glsl. Surfaces put their triangles into the samples. `layouts`: how the group of
+// shaders/births/spawn.glsl. Surfaces put their triangles into the samples. `layouts`: how the group of
 // each emitter's source is stored; of others anything.
 std::string generateEmitters(const Scene& scene, const Lifecycle& life,
                              const std::vector<BufferLayout>& layouts, std::vector<glm::vec4>& samples);

@@ -22,7 +22,7 @@ SplitPoint splitPoint(const glm::dvec3& point);
 // the mouse may hold it anywhere.
 bool isFar(const Force& force);
 
-// The length of life of what has this seed, s (shaders/particles/emit.glsl).
+// The length of life of what has this seed, s (shaders/births/emit.glsl).
 constexpr uint32_t bornLife = 0xe0000006u, bornTime = 0xe000000fu;
 double lifeOf(const glm::dvec2& life, uint32_t seed);
 

@@ -126,6 +126,15 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     if (rule_) rule_(out, reader);
 }
 
+// A pair, or its second number alone.
+static void getEnds(JsonReader& reader, const std::string& name, glm::dvec2& out, const Range& range) {
+    const JsonValue* given = reader.raw(name);
+    if (given && given->kind == JsonValue::Kind::number)
+        reader.get(name, out.y, range);
+    else
+        reader.get(name, out, range);
+}
+
 void Description::readKey(const Key& key, JsonReader& r, void* object, void* context) {
     const std::string& name = key.name;
     const Range range = key.says.range;
@@ -181,15 +190,8 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         return fill(Box(), [&](Box& value) { return getBox(r, name, value, key.flatBox); });
     case Kind::rotation:
         return fill(glm::dquat(), [&](glm::dquat& value) { return getRotation(r, name, value); });
-    case Kind::ends: {
-        const JsonValue* given = r.raw(name);
-        glm::dvec2& value = *static_cast<glm::dvec2*>(key.place(object));
-        if (given && given->kind == JsonValue::Kind::number)
-            r.get(name, value.y, range);
-        else
-            r.get(name, value, range);
-        return;
-    }
+    case Kind::ends:
+        return getEnds(r, name, *static_cast<glm::dvec2*>(key.place(object)), range);
     case Kind::word: {
         int index = key.member.index(key.value(object));
         if (r.choose(name, key.words, index)) key.member.choose(key.place(object), index);

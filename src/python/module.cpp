@@ -109,6 +109,67 @@ py::list measureScene(const PyScene& scene, double duration, const std::vector<s
     return out;
 }
 
+void bindSimulation(py::module_& m) {
+    const auto group = py::arg("group") = py::none();
+    py::class_<PySimulation>(m, "Simulation", "A scene that moves, on the GPU.")
+        .def(py::init<const PyScene&, const std::optional<std::string>&, std::optional<int>,
+                      std::optional<int>, const std::string&>(),
+             py::arg("scene"), py::kw_only(), py::arg("solver") = py::none(),
+             py::arg("substeps") = py::none(), py::arg("device") = py::none(), py::arg("path") = "auto",
+             "`device`: of those that `shoal info` lists; None: the best.")
+        .def("step", &PySimulation::step, py::arg("frames") = 1, Unlocked(), "Goes on by so many frames.")
+        .def("restart", &PySimulation::restart, Unlocked(), "Back to the start state.")
+        .def("close", &PySimulation::close, "Frees what it holds on the device.")
+        .def(
+            "__enter__", [](PySimulation& self) -> PySimulation& { return self; },
+            py::return_value_policy::reference)
+        .def("__exit__", [](PySimulation& self, const py::args&) { self.close(); })
+        .def_property_readonly("time", &PySimulation::time, "s.")
+        .def_property_readonly("frames", &PySimulation::frames)
+        .def_property_readonly("groups", &PySimulation::groups, "Their names.")
+        .def_property_readonly(
+            "parameters",
+            py::cpp_function([](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>()))
+        .def("solver", &PySimulation::solver, group, "The method of a group.")
+        .def("positions", &PySimulation::positions, group,
+             "m, float64 of shape (molecules, vertices, 3): a copy.")
+        .def("velocities", &PySimulation::velocities, group, "m/s, likewise.")
+        .def("normals", &PySimulation::normals, group,
+             "Unit vectors, float32; zero where there are no triangles.")
+        .def("alive", &PySimulation::alive, group, "Whether each place holds a living molecule.")
+        .def("set_state", &PySimulation::setState, group, py::kw_only(), py::arg("positions") = py::none(),
+             py::arg("velocities") = py::none(), "Arrays of the shape of positions(), m and m/s.")
+        .def("energy", &PySimulation::energy, group, "J, of all living: kinetic, elastic (springs), gravity.")
+        .def("picture", &PySimulation::picture, py::arg("width") = 640, py::arg("height") = 360,
+             py::kw_only(), py::arg("eye") = py::none(), py::arg("target") = py::none(),
+             py::arg("field_of_view") = py::none(),
+             "RGBA, uint8 of shape (height, width, 4), from the scene's camera or from `eye` to `target` (m; "
+             "rad).")
+        .def("hash", &PySimulation::hash, "Of the state's bits: equal states, equal hashes.")
+        .def("save", &PySimulation::save, py::arg("file"), "Writes a checkpoint.")
+        .def("load", &PySimulation::load, py::arg("file"), "Goes on from a checkpoint of this scene.");
+}
+
+void bindChecks(py::module_& m) {
+    py::class_<FileFinding>(m, "Finding", "Something wrong in a file, or probably not meant.")
+        .def_readonly("file", &FileFinding::file)
+        .def_readonly("line", &FileFinding::line)
+        .def_readonly("path", &FileFinding::path)
+        .def_readonly("message", &FileFinding::message)
+        .def_readonly("error", &FileFinding::error, "Whether the file cannot be used.")
+        .def("__repr__", [](const FileFinding& self) {
+            return concat(self.file, ":", self.line, ": ",
+                          self.error ? "error: " : "warning: ", self.message);
+        });
+    m.def("check", &checkFile, py::arg("file"), Unlocked(), "The findings in a molecule's or scene's file.");
+    m.def("measure", &measureScene, py::arg("scene"), py::kw_only(), py::arg("duration") = 1.0,
+          py::arg("solvers") = std::vector<std::string>(), py::arg("seconds") = py::none(),
+          py::arg("device") = py::none(),
+          "Error against cost of every method, as a list of dicts: relative error; s per vertex and "
+          "simulated second. `duration`: s of simulated time; `solvers`: only these, or all where none is "
+          "named; `seconds`: of measuring, about.");
+}
+
 }  // namespace
 
 }  // namespace shoal::python
@@ -169,63 +230,7 @@ PYBIND11_MODULE(shoal, m) {
         });
 
     bindParameters(m);
-
-    const auto group = py::arg("group") = py::none();
-    py::class_<PySimulation>(m, "Simulation", "A scene that moves, on the GPU.")
-        .def(py::init<const PyScene&, const std::optional<std::string>&, std::optional<int>,
-                      std::optional<int>, const std::string&>(),
-             py::arg("scene"), py::kw_only(), py::arg("solver") = py::none(),
-             py::arg("substeps") = py::none(), py::arg("device") = py::none(), py::arg("path") = "auto",
-             "`device`: of those that `shoal info` lists; None: the best.")
-        .def("step", &PySimulation::step, py::arg("frames") = 1, Unlocked(), "Goes on by so many frames.")
-        .def("restart", &PySimulation::restart, Unlocked(), "Back to the start state.")
-        .def("close", &PySimulation::close, "Frees what it holds on the device.")
-        .def(
-            "__enter__", [](PySimulation& self) -> PySimulation& { return self; },
-            py::return_value_policy::reference)
-        .def("__exit__", [](PySimulation& self, const py::args&) { self.close(); })
-        .def_property_readonly("time", &PySimulation::time, "s.")
-        .def_property_readonly("frames", &PySimulation::frames)
-        .def_property_readonly("groups", &PySimulation::groups, "Their names.")
-        .def_property_readonly(
-            "parameters",
-            py::cpp_function([](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>()))
-        .def("solver", &PySimulation::solver, group, "The method of a group.")
-        .def("positions", &PySimulation::positions, group,
-             "m, float64 of shape (molecules, vertices, 3): a copy.")
-        .def("velocities", &PySimulation::velocities, group, "m/s, likewise.")
-        .def("normals", &PySimulation::normals, group,
-             "Unit vectors, float32; zero where there are no triangles.")
-        .def("alive", &PySimulation::alive, group, "Whether each place holds a living molecule.")
-        .def("set_state", &PySimulation::setState, group, py::kw_only(), py::arg("positions") = py::none(),
-             py::arg("velocities") = py::none(), "Arrays of the shape of positions(), m and m/s.")
-        .def("energy", &PySimulation::energy, group, "J, of all living: kinetic, elastic (springs), gravity.")
-        .def("picture", &PySimulation::picture, py::arg("width") = 640, py::arg("height") = 360,
-             py::kw_only(), py::arg("eye") = py::none(), py::arg("target") = py::none(),
-             py::arg("field_of_view") = py::none(),
-             "RGBA, uint8 of shape (height, width, 4), from the scene's camera or from `eye` to `target` (m; "
-             "rad).")
-        .def("hash", &PySimulation::hash, "Of the state's bits: equal states, equal hashes.")
-        .def("save", &PySimulation::save, py::arg("file"), "Writes a checkpoint.")
-        .def("load", &PySimulation::load, py::arg("file"), "Goes on from a checkpoint of this scene.");
-
-    py::class_<FileFinding>(m, "Finding", "Something wrong in a file, or probably not meant.")
-        .def_readonly("file", &FileFinding::file)
-        .def_readonly("line", &FileFinding::line)
-        .def_readonly("path", &FileFinding::path)
-        .def_readonly("message", &FileFinding::message)
-        .def_readonly("error", &FileFinding::error, "Whether the file cannot be used.")
-        .def("__repr__", [](const FileFinding& self) {
-            return concat(self.file, ":", self.line, ": ",
-                          self.error ? "error: " : "warning: ", self.message);
-        });
-    m.def("check", &checkFile, py::arg("file"), Unlocked(), "The findings in a molecule's or scene's file.");
-    m.def("measure", &measureScene, py::arg("scene"), py::kw_only(), py::arg("duration") = 1.0,
-          py::arg("solvers") = std::vector<std::string>(), py::arg("seconds") = py::none(),
-          py::arg("device") = py::none(),
-          "Error against cost of every method, as a list of dicts: relative error; s per vertex and "
-          "simulated second. `duration`: s of simulated time; `solvers`: only these, or all where none is "
-          "named; `seconds`: of measuring, about.");
-
+    bindSimulation(m);
+    bindChecks(m);
     tellArguments(m);
 }

@@ -115,7 +115,7 @@ static constexpr double leastExtinction = 0.02;  // 1/m: what is clearer sends b
 WaterBeams::WaterBeams(gpu::Context& context, const WaterLight* water)
     : context_(&context), water_(water != nullptr && water->water().rays > 0 ? water : nullptr) {
     if (!water_) return;
-    program_ = gpu::Program(context, {"render/screen.vert", "water/rays.frag", {}, {}, "beams"});
+    program_ = gpu::Program(context, {"render/screen.vert", "render/beams.frag", {}, {}, "beams"});
 }
 
 void WaterBeams::resize(int width, int height) {

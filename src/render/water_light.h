@@ -45,7 +45,7 @@ class WaterLight {
     gpu::Framebuffer target_;
 };
 
-// Beams of light, drawn after everything else at a quarter of the picture's size (shaders/water/rays.frag).
+// Beams of light, drawn after everything else at a quarter of the picture's size (shaders/render/beams.frag).
 class WaterBeams {
   public:
     // None where the water has no rays.

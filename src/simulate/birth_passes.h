@@ -7,7 +7,7 @@
 //   births   one after another; groups that emit from the deaths of others before those emit anew
 //
 // The lists are in ascending order. With the allocator gpu, how many are born and where is known on the GPU
-// alone, in words of control, so many a group (shaders/particles/control.glsl).
+// alone, in words of control, so many a group (shaders/births/control.glsl).
 #pragma once
 
 #include <cstdint>

@@ -139,7 +139,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
-        return out + parameterLoads(group, options) + "#include \"particles/spawn.glsl\"\n";
+        return out + parameterLoads(group, options) + "#include \"births/spawn.glsl\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
@@ -199,7 +199,7 @@ std::string storeOfDraw(const std::vector<std::string>& values, const char* func
 
 // The fragment: what it is handed, into the targets.
 std::string newbornText(int targets) {
-    std::string out = "// Stores what a vertex has made of a newborn (particles/spawn.glsl).\n";
+    std::string out = "// Stores what a vertex has made of a newborn (births/spawn.glsl).\n";
     out += declareHanded("in", targets) + declareTargets(targets) + "\nvoid main()\n{\n";
     for (int t = 0; t < targets; ++t)
         out += concat("    target", t, " = handed", t, ";\n");
@@ -306,7 +306,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     else if (born)
         out.vertex = root, out.fragment = "generated/newborn.frag";
     else
-        out.vertex = reachesByControl(group, options) ? "particles/reach.vert" : "passes/fullscreen.vert",
+        out.vertex = reachesByControl(group, options) ? "births/reach.vert" : "passes/fullscreen.vert",
         out.fragment = root;
     out.defines = defines(plan, group, options);
     out.generated = {{root, rootText(group, options)},

@@ -18,7 +18,7 @@ struct KernelOptions {
         normals,  // of the state as it is; nothing moves
         watch,    // in fragments: whether the state as it is has run away
         touched,  // in fragments: what contact between molecules does to the state
-        births,   // of newborns (shaders/particles/spawn.glsl)
+        births,   // of newborns (shaders/births/spawn.glsl)
     };
     Work work = Work::frame;
     // In fragments (OpenGL 3.3), the most colour targets of a draw, each of which takes one of the 4-vectors
@@ -40,7 +40,7 @@ struct KernelOptions {
 // another program, which it compiles.
 std::vector<int> drawsOf(size_t values, int targets);
 
-constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
+constexpr int birthLanes = 64;  // of a workgroup of births (shaders/births/bits_scan.comp counts with it)
 // Vertices that a lane of the step holds, at most.
 int verticesOfLane(const GroupPlan& group, const KernelOptions& options);
 // Molecules of a workgroup of the step.

@@ -104,7 +104,7 @@ void settleBirths() {
 PlaceLists::PlaceLists(gpu::Context& context, size_t groups, size_t mostPlaces) {
     const auto program = [&](const char* file, bool deaths, int lanes) {
         gpu::ProgramOptions options;
-        options.compute = concat("particles/", file, ".comp");
+        options.compute = concat("births/", file, ".comp");
         options.label = concat(file, deaths ? " of deaths" : " of places");
         options.defines = {concat("LANES ", lanes), concat("WORDS ", wordsOfLane)};
         if (deaths) options.defines.emplace_back("DEATHS");

@@ -79,10 +79,10 @@ struct ListRange {
 };
 
 // Sets of places as bits on the GPU, and lists of them in ascending order: the same for the same bits. Three
-// dispatches over the words: sums, their scan by one workgroup, the list (shaders/particles/bits_*.comp).
+// dispatches over the words: sums, their scan by one workgroup, the list (shaders/births/bits_*.comp).
 //
 // The scan's results, and what births need of them, stay on the GPU in words of control, so many a group
-// (shaders/particles/control.glsl).
+// (shaders/births/control.glsl).
 class PlaceLists {
   public:
     // For groups of a plan, of up to so many places.

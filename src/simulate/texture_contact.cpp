@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
+#include "simulate/texture_layers.h"
 
 namespace shoal {
 
@@ -331,49 +332,11 @@ void TextureContact::search(ContactState&, const Times& times) {
     drawAll({&counts_[now_], &lists_[now_]});
 }
 
-// Texels by number, of each layer after the other.
-template <typename T>
-static std::vector<T> readLayers(const Texture& texture, Traffic::Kind kind = Traffic::Kind::state) {
-    const size_t texels = size_t(texture.width()) * size_t(texture.height());
-    const int layers = std::max(texture.layers(), 1);
-    std::vector<T> out(texels * size_t(layers));
-    for (int layer = 0; layer < layers; ++layer)
-        texture.download(kind, 0, 0, texture.width(), texture.height(), out.data() + texels * size_t(layer),
-                         texels * sizeof(T), layer);
-    return out;
-}
-
 uint32_t TextureContact::dropped() const {
     const auto counts = readLayers<glm::uvec2>(counts_[now_], Traffic::Kind::control);
     uint32_t out = 0;
     for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
         out += counts[slot].y;
-    return out;
-}
-
-template <typename T>
-static void writeLayers(Texture& texture, std::vector<T> values) {
-    const size_t texels = size_t(texture.width()) * size_t(texture.height());
-    const int layers = std::max(texture.layers(), 1);
-    values.resize(texels * size_t(layers));
-    for (int layer = 0; layer < layers; ++layer)
-        texture.upload(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
-                       values.data() + texels * size_t(layer), texels * sizeof(T), layer);
-}
-
-// Layers become the values of one number after another, and back.
-static std::vector<glm::vec4> together(const std::vector<glm::vec4>& layered, size_t stride, size_t count) {
-    std::vector<glm::vec4> out;
-    for (size_t i = 0; i < count; ++i)
-        for (size_t at = i; at < layered.size(); at += stride)
-            out.push_back(layered[at]);
-    return out;
-}
-
-static std::vector<glm::vec4> apart(const std::vector<glm::vec4>& of, size_t stride, size_t count) {
-    std::vector<glm::vec4> out(count > 0 ? of.size() / count * stride : 0);
-    for (size_t i = 0; i < of.size(); ++i)
-        out[i % (of.size() / count) * stride + i / (of.size() / count)] = of[i];
     return out;
 }
 
@@ -407,7 +370,7 @@ ContactMemory TextureContact::memory() const {
     out.loads = readLayers<glm::vec4>(loads_);
     out.loads.resize(spheres);
     if (!walls_) return bySphere(out);
-    out.walls = together(readLayers<glm::vec4>(nearWalls_[now_]), out.stride, spheres);
+    out.walls = byElement(readLayers<glm::vec4>(nearWalls_[now_]), out.stride, spheres);
     const auto pushes = readLayers<glm::vec4>(wallPushes_[0]);  // by slot
     for (const uint32_t slot : out.slots)
         for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
@@ -444,8 +407,8 @@ void TextureContact::remember(const ContactMemory& memory) {
     writeLayers(known_[now_], known);
     writeLayers(loads_, in.loads);
     if (!walls_ || in.walls.empty()) return;
-    writeLayers(nearWalls_[now_], apart(in.walls, stride, spheres));
-    writeLayers(wallPushes_[0], apart(in.wallPushes, stride, spheres));
+    writeLayers(nearWalls_[now_], byLayer(in.walls, stride, spheres));
+    writeLayers(wallPushes_[0], byLayer(in.wallPushes, stride, spheres));
 }
 
 std::vector<std::pair<int, int>> TextureContact::found() const {

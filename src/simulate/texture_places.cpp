@@ -53,7 +53,7 @@ void TexturePlaces::makePrograms(const Plan& plan) {
     const auto options = [&](const char* file, const char* label) {
         gpu::ProgramOptions out;
         out.vertex = "passes/fullscreen.vert";
-        out.fragment = concat("particles/", file, ".frag");
+        out.fragment = concat("births/", file, ".frag");
         out.label = label;
         return out;
     };

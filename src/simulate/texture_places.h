@@ -1,6 +1,6 @@
 // Which places of groups with life are free, and in which one died, on the GPU without compute shaders: as
 // bits in a texture, read from the state, and sums over them in the levels of a tree, each a draw
-// (shaders/particles/bits.frag, sums.frag). Down the tree a place is found by its rank, so lists of them are
+// (shaders/births/bits.frag, sums.frag). Down the tree a place is found by its rank, so lists of them are
 // in ascending order (list.frag).
 //
 // The part that births need of the sums stays on the GPU in words of control, so many a group, four a texel

@@ -2,20 +2,15 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <utility>
 
 #include "core/error.h"
-#include "core/image.h"
-#include "core/json_build.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
-#include "render/picture.h"
-#include "run/checkpoints.h"
 #include "run/signals.h"
+#include "window/captures.h"
 #include "window/open_scene.h"
 #include "window/window_loop.h"
 
@@ -72,7 +67,7 @@ class Viewer : public WindowLoop {
         const FinishesOnSignal finishes;
         go();
         if (!open_) return;
-        if (recorder_.records()) toggleRecording();
+        captures_.endVideo(open_->running);
         open_->saveIfAsked(true);
         if (open_->unsaved())
             std::cerr << "shoal: warning: what was changed in the window was not saved in "
@@ -146,8 +141,7 @@ class Viewer : public WindowLoop {
         if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
         renderer.present(width(), height());
         lastFrame_ = context().traffic() - before;
-        if (recorder_.records() && steps)
-            troubles.attempt("recording", [&] { recorder_.add(renderer.capture()); });
+        if (steps) captures_.add(open.running);
     }
 
     void drawOpenScene() {
@@ -184,7 +178,7 @@ class Viewer : public WindowLoop {
         open_->simulation().load(state);
         open_->controls.paused = true;
         troubles.end("run");
-        tell(concat("went to frame ", state.frames, ", paused"));
+        captures_.say(concat("went to frame ", state.frames, ", paused"));
     }
 
     void pauseWith(const std::string& message) {
@@ -277,50 +271,11 @@ class Viewer : public WindowLoop {
         }
     }
 
-    // Takes a file dropped on the window: opens a scene, adds a molecule as a group, and takes any other file
-    // for a model of the scene.
+    // Opens the scene that was dropped on the window, or adds the molecule or model to the open one.
     void takeDropped(const std::string& file) {
-        namespace fs = std::filesystem;
         if (file.ends_with(".scene.json")) return askToOpen(file);
         if (!open_) return troubles.warn("opening", concat(file, ": is no scene (.scene.json)"));
-        RunningScene& running = open_->running;
-        const fs::path folder = fs::absolute(running.scene.file).parent_path();
-        const std::string name = fs::relative(file, folder).generic_string();
-        const bool molecule = fs::path(file).extension() == ".json";
-        change([&] {
-            JsonValue root = running.json();
-            const char* key = molecule ? "groups" : "models";
-            const JsonValue* there = root.find(key);
-            JsonValue list = there ? *there : JsonValue::makeArray();
-            list.items.push_back(molecule ? smallestGroup(list, name) : object(shoal::key("file", name)));
-            setMember(root, key, std::move(list));
-            running.change(root);
-        });
-    }
-
-    // ---- Pictures and videos, without the panels
-
-    std::string stem() const { return sceneStem(open_->running.scene.file); }
-
-    void tell(const std::string& line) {
-        status_.say(line);
-        std::cout << printable(line) << std::endl;
-    }
-
-    void takePicture() {
-        troubles.attempt("capture", [&] {
-            const std::string file = freeName(stem(), ".png");
-            writePng(file, open_->running.renderer().capture());
-            tell("picture: " + file);
-        });
-    }
-
-    void toggleRecording() {
-        troubles.attempt("recording", [&] {
-            if (!recorder_.records()) return recorder_.start(stem(), open_->running.scene.frameRate);
-            recorder_.stop();
-            tell(concat("recorded: ", recorder_.target(), ", ", many(recorder_.frames(), "frame", "frames")));
-        });
+        change([&] { open_->running.add(file); });
     }
 
     // ---- Opening
@@ -342,14 +297,9 @@ class Viewer : public WindowLoop {
     // After a frame that says so, because it may take a while.
     void openNow() {
         if (std::exchange(saidOpening_, !saidOpening_) == false) return;
-        if (recorder_.records()) toggleRecording();
+        if (open_) captures_.endVideo(open_->running);
         const std::string file = std::exchange(opening_, {});
-        // what else was asked of the first scene does not bind the others
-        RunRequest request;
-        request.path = options_.run.path;
-        request.lanes = options_.run.lanes;
-        request.inPlace = options_.run.inPlace;
-        request.lenient = options_.run.lenient;
+        RunRequest request = options_.run.forAnother();
         try {
             Loaded loaded = loadScene(file, request);
             auto next = std::make_unique<OpenScene>(std::move(request), context(), std::move(loaded), width(),
@@ -409,9 +359,7 @@ class Viewer : public WindowLoop {
 
     void drawNotices() {
         HotReload& reload = open_->reload;
-        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ",
-                                                  many(recorder_.frames(), "frame", "frames"), "; V stops")
-                                         : std::string());
+        captures_.drawLine();
         const bool closed = showNotices(reload.problem(), troubles.text(), points(hidden_ ? 12 : 328),
                                         points(hidden_ ? 12 : 392));
         if (closed) troubles.clear();
@@ -448,8 +396,8 @@ class Viewer : public WindowLoop {
         if (keys().pressed(GLFW_KEY_F)) settings.field = !settings.field;
         if (keys().pressed(GLFW_KEY_H)) hidden_ = !hidden_;
         if (keys().pressed(GLFW_KEY_T)) open_->timeLine.open = !open_->timeLine.open;
-        if (keys().pressed(GLFW_KEY_P)) takePicture();
-        if (keys().pressed(GLFW_KEY_V)) toggleRecording();
+        if (keys().pressed(GLFW_KEY_P)) captures_.takePicture(open_->running);
+        if (keys().pressed(GLFW_KEY_V)) captures_.toggleVideo(open_->running);
         constexpr double quarter = 1.5707963267948966;  // rad
         if (keys().pressed(GLFW_KEY_1)) open_->camera.lookFrom(0, 0);
         if (keys().pressed(GLFW_KEY_2)) open_->camera.lookFrom(quarter, 0);
@@ -478,8 +426,7 @@ class Viewer : public WindowLoop {
     bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
     size_t shaderFiles_ = 0;
     gpu::Traffic lastFrame_;
-    Recorder recorder_;
-    StatusLine status_;
+    Captures captures_{troubles};
     ScenePointer pointer_;
     bool helps_ = false, hidden_ = false;  // the keys are shown; the panels are not
 };

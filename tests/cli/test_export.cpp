@@ -410,35 +410,6 @@ TEST_CASE("three.js and tinyusdz read what is exported", "[cli][export]") {
     CHECK_THAT(read.out, Catch::Contains(first));
 }
 
-TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export]") {
-    const Scratch scratch;
-    const std::string folder = scratch.path("vat");
-    const auto refuses = [&](const Words& more, const std::string& part) {
-        Words words{"export", squaresScene()};
-        words.insert(words.end(), more.begin(), more.end());
-        refusal(words, part);
-    };
-    refuses({}, "say what to write: --vat FOLDER, --glb FILE or --usd TARGET");
-    refuses({"--glb", scratch.path("a.obj")}, "expected a name ending in .glb");
-    refuses({"--vat", folder, "--glb", scratch.path("a.glb")}, "excludes");
-    refuses({"--vat", folder, "--group", "quads"}, "no group \"quads\" (did you mean \"quad\"?)");
-    refuses({"--vat", folder, "--frames", "9000"}, "--frames: textures hold at most 8192, found 9000");
-    refuses({"--vat", folder, "--frames", "5", "--loop", "5"},
-            "--loop: expected fewer than the 5 frames, found 5");
-    refuses({"--vat", folder, "--molecules", "21"}, "--molecules: group \"quad\" has 20, found 21");
-    refuses({"--vat", folder, "--texels", "jpg"}, "--texels: unknown word \"jpg\"");
-    refuses({"--vat", "/proc/nothing"}, "/proc/nothing");
-    refusal({"export", squaresScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
-    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "-1"}, "expected a length of at least 0 m");
-    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "nan"}, "expected a length of at least 0 m");
-    refuses({"--vat", scratch.path("a"), "--rigid-within", "1"}, "--usd");
-    refuses({"--usd", scratch.path("a.usdc")}, "expected a folder, or a name ending in .usda");
-    refuses({"--usd", scratch.path("a.usda"), "--glb", scratch.path("a.glb")}, "excludes");
-    refusal({"export", "fountain", "--vat", folder, "--frames", "2"}, "choose one");
-    refusal({"export", "fire", "--vat", folder, "--frames", "2", "--group", "flames"}, "group \"flames\"");
-    CHECK(filesIn(scratch.folder().string()).empty());
-}
-
 TEST_CASE("Blender plays an animation texture back", "[cli][export][blender]") {
     const std::string program = findProgram("blender");
     if (program.empty()) {
@@ -454,21 +425,4 @@ TEST_CASE("Blender plays an animation texture back", "[cli][export][blender]") {
     INFO(blender.out << blender.err);
     CHECK(blender.code == 0);
     CHECK(blender.out.find("720 places: worst ") != std::string::npos);
-}
-
-TEST_CASE("an export that is refused leaves nothing", "[cli][exchange]") {
-    const Scratch scratch;
-    const auto molecule = [](const char* name) { return sourceFile(concat("molecules/", name)); };
-    const std::string scene = scratch.write(
-        "refused.scene.json",
-        concat(R"({"format": "shoal-scene-1", "groups": [{"name": "a", "molecule": ")",
-               molecule("minnow.json"),
-               R"(", "count": 1, "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}},
- {"name": "b", "molecule": ")",
-               molecule("leaf.json"),
-               R"(", "life": {"span": 1}, "emitters": [{"from": "point", "rate": 9}]}]})"));
-    refusal({"export", scene, "--usd", scratch.path("o/a.usda"), "--frames", "2", "--rigid"},
-            "group \"b\" has births or deaths");
-    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"refused.scene.json"});
-    CHECK_FALSE(std::filesystem::exists(scratch.path("o")));
 }

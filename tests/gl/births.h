@@ -37,6 +37,15 @@ inline Emitter burst(int count, double time = 0) {
     return emitter;
 }
 
+inline Scene flowing(Allocator allocator, double rate, const glm::dvec2& life, int capacity) {
+    Emitter emitter = steady(rate);
+    emitter.speed = {1, 2};
+    emitter.spread = 0.5;
+    Scene scene = emitting(emitter, capacity, life);
+    scene.groups[0].life->allocator = allocator;
+    return scene;
+}
+
 // A living member of a group of points, in world coordinates.
 struct Living {
     size_t place = 0;

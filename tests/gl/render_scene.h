@@ -106,4 +106,22 @@ inline Changed changed(const Image& a, const Image& b, int above) {
     return out;
 }
 
+// The pixels between the edges of what differs from an empty picture.
+struct Extent {
+    int width = 0, height = 0;
+};
+
+inline Extent extentOf(const Image& image, const Image& empty) {
+    int left = image.width, right = -1, top = image.height, bottom = -1;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (difference(pixel(image, x, y), pixel(empty, x, y)) > 60) {
+                left = std::min(left, x);
+                right = std::max(right, x);
+                top = std::min(top, y);
+                bottom = std::max(bottom, y);
+            }
+    return {right - left + 1, bottom - top + 1};
+}
+
 }  // namespace shoal::test

@@ -1,187 +1,30 @@
-// Contact of molecules with one another, against closed forms and brute force, on every path.
+// Contact of molecules with one another, against closed forms and the reference, on every path.
 #include <algorithm>
 #include <random>
 
-#include "gl/feature_scenes.h"
-#include "gl/numerics.h"
-#include "reference/sphere_response.h"
+#include "gl/marbles.h"
 #include "support/catch.h"
 
 namespace shoal {
 
+using namespace test;
 using glm::dvec3;
 using glm::vec2;
 
 namespace {
 
-// That the context can run.
-std::vector<Path> paths() {
-    if (testContext().info().computeShaders) return {Path::fused, Path::fragments, Path::pingPong};
-    return {Path::fragments, Path::pingPong};
-}
-
 // Those with contact of triangles, and within a molecule.
 std::vector<Path> fusedPaths() {
-    std::vector<Path> out = paths();
+    std::vector<Path> out = pathsHere();
     out.pop_back();
     return out;
 }
 
-Simulation simulationOn(Path path, Plan plan, bool drawn = false) {
-    return Simulation(testContext(), std::move(plan), {.drawn = drawn, .path = path});
-}
-
-// Points of some masses, each with contact of one radius, in no gravity.
-Scene marbles(const std::vector<dvec3>& positions, double radius, double mass = 1) {
-    std::vector<test::Item> items;
-    for (const dvec3& p : positions)
-        items.push_back(test::at(p));
-    Scene scene = test::sceneOf(test::point(mass), SolverKind::leapfrog, items);
-    scene.groups[0].contact.emplace().radius = radius;
-    test::setSteps(scene, 0.01, 1);
-    return scene;
-}
-
-// With these velocities, group by group, and materials for all pairs of groups.
-Simulation startedWith(const Scene& scene, const std::vector<dvec3>& velocities, vec2 material,
-                       Path path = paths().front()) {
-    Plan plan = compile(scene);
-    for (vec2& pair : plan.contact.pairs)
-        pair = material;
-    size_t next = 0;
-    for (GroupPlan& group : plan.groups)
-        for (glm::vec3& v : group.start.velocities)
-            v = glm::vec3(velocities[next++]);
-    return simulationOn(path, std::move(plan));
-}
-
-// All spheres of the plan's start state, in the order of their numbers.
-std::vector<reference::Sphere> spheresOf(const Plan& plan) {
-    std::vector<reference::Sphere> out;
-    int molecules = 0;
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        for (int m = 0; m < group.count; ++m) {
-            const size_t first = size_t(m) * size_t(group.vertexCount);
-            const auto vertex = [&](int v) {
-                reference::Sphere sphere;
-                sphere.position =
-                    dvec3(group.start.anchors[size_t(m)]) + dvec3(group.start.positions[first + size_t(v)]);
-                sphere.velocity = dvec3(group.start.velocities[first + size_t(v)]);
-                sphere.radius = contact.radius * double(group.constants.scales[size_t(m)]);
-                sphere.weight = contact.shapes[size_t(v)].y > 0 ? 0 : double(contact.shapes[size_t(v)].x);
-                sphere.molecule = molecules + m;
-                return sphere;
-            };
-            for (int v = 0; v < group.vertexCount; ++v)
-                out.push_back(vertex(v));
-            for (const glm::ivec3& t : contact.corners) {
-                reference::Sphere middle = vertex(t.x);
-                middle.position = (vertex(t.x).position + vertex(t.y).position + vertex(t.z).position) / 3.0;
-                out.push_back(middle);
-            }
-        }
-        molecules += group.count;
-    }
-    return out;
-}
-
-using Pairs = std::vector<std::pair<int, int>>;
-
-// Returns the pairs of `some` that `all` lacks.
-Pairs missing(const Pairs& all, const Pairs& some) {
-    Pairs out;
-    std::set_difference(some.begin(), some.end(), all.begin(), all.end(), std::back_inserter(out));
-    return out;
-}
-
-// Whether the two are in contact, or miss it, by so little that rounding may tell otherwise.
-bool isClose(const std::vector<reference::Sphere>& spheres, const std::pair<int, int>& pair) {
-    const reference::Sphere &a = spheres[size_t(pair.first)], &b = spheres[size_t(pair.second)];
-    return std::abs(glm::distance(a.position, b.position) - ContactPlan::near * (a.radius + b.radius)) <
-           1e-6 * (a.radius + b.radius);
-}
-
-// Quads strewn over a box, with contact.
-Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale = {1, 1}) {
-    Scene scene = test::sceneOf(test::shippedMolecule("quad"), SolverKind::leapfrog);
-    Group& group = scene.groups[0];
-    group.count = count;
-    group.place.kind = Placement::Kind::volume;
-    group.place.items.clear();
-    group.place.turn = Placement::Turn::any;
-    group.place.box = {dvec3(0), size};
-    group.place.scale = scale;
-    group.contact.emplace().radius = radius;
-    test::setSteps(scene, 1e-5, 1);
-    return scene;
-}
-
-// Finds what brute force finds; nothing moves far in the 1e-5 s of the step.
-void checkFound(const Scene& scene) {
-    const Plan plan = compile(scene);
-    const std::vector<reference::Sphere> spheres = spheresOf(plan);
-    const Pairs expected = reference::touching(spheres);
-    CHECK(expected.size() > 20);
-    for (const Path path : paths()) {
-        if (path == Path::pingPong &&
-            std::any_of(plan.contact.groups.begin(), plan.contact.groups.end(),
-                        [](const ContactGroup& g) { return g.triangles || g.self; }))
-            continue;
-        CAPTURE(name(path));
-        Simulation simulation = simulationOn(path, plan);
-        simulation.frame();
-        const Pairs found = simulation.contact()->found();
-        CHECK(simulation.contact()->dropped() == 0);
-        for (const Pairs& difference : {missing(found, expected), missing(expected, found)})
-            for (const auto& pair : difference)
-                CHECK(isClose(spheres, pair));
-    }
-}
-
 }  // namespace
-
-TEST_CASE("the exact search finds every contact", "[molecule contact]") {
-    SECTION("one size") {
-        checkFound(strewn(500, dvec3(2), 0.04));
-    }
-    SECTION("crowded") {
-        checkFound(strewn(300, dvec3(0.6), 0.015));
-    }
-    SECTION("all in one plane") {
-        checkFound(strewn(400, {4, 0, 4}, 0.05));
-    }
-    SECTION("radii that differ") {
-        checkFound(strewn(500, dvec3(2), 0.03, {0.3, 2}));
-    }
-    SECTION("a little larger than one workgroup") {
-        checkFound(strewn(33, dvec3(0.5), 0.05));
-    }
-    SECTION("few spheres in the smallest table") {
-        checkFound(strewn(8, dvec3(0.2), 0.06));
-    }
-    SECTION("with spheres on triangles") {
-        Scene scene = strewn(300, dvec3(1.5), 0.04);
-        scene.groups[0].contact->triangles = true;
-        checkFound(scene);
-    }
-    SECTION("two groups") {
-        Scene scene = strewn(200, dvec3(1.2), 0.04);
-        scene.groups.push_back(strewn(150, dvec3(1.2), 0.02).groups[0]);
-        scene.groups[1].molecule = test::shippedMolecule("leaf");
-        scene.groups[1].name = "leaves";
-        checkFound(scene);
-    }
-    SECTION("100 km from the origin") {
-        Scene scene = strewn(500, dvec3(2), 0.04);
-        scene.groups[0].place.box = {dvec3(1e5, -1e5, 1e5), dvec3(1e5 + 2, -1e5 + 2, 1e5 + 2)};
-        checkFound(scene);
-    }
-}
 
 TEST_CASE("two marbles meet head-on as in the closed form", "[molecule contact]") {
     const double radius = 0.05, m = 1, n = 3, speed = 2;
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     const ContactResponse response = GENERATE(ContactResponse::simultaneous, ContactResponse::nearest);
     for (const double e : {0.0, 0.3, 1.0}) {
         Scene scene = marbles({{-0.3, 0.2, 0}}, radius, m);
@@ -208,7 +51,7 @@ TEST_CASE("two marbles meet head-on as in the closed form", "[molecule contact]"
 // touched is that of the velocities after.
 TEST_CASE("two marbles that graze stick or slide as Coulomb has it", "[molecule contact]") {
     const double m = 1, n = 2.5, e = 0.2, reach = 0.13, speed = 2.6;
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     // the slip over the push at offset b is (b / sqrt(reach^2 - b^2)) / (1 + e): what holds it, nearly holds
     // it, does not
     const double offset = 0.06, limit = offset / std::sqrt(reach * reach - offset * offset) / (1 + e);
@@ -282,22 +125,6 @@ Cloud cloud(int count, double side, vec2 material, double fastest = 1.5) {
     return out;
 }
 
-// Positions and velocities of all groups of points, in their order.
-std::vector<reference::Sphere> statesOf(const Simulation& simulation) {
-    std::vector<reference::Sphere> out;
-    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
-        const Snapshot snapshot = simulation.snapshot(g);
-        for (size_t i = 0; i < snapshot.positions.size(); ++i) {
-            reference::Sphere sphere;
-            sphere.position = snapshot.positions[i];
-            sphere.velocity = snapshot.velocities[i];
-            sphere.weight = double(simulation.plan().contact.groups[g].shapes[0].x);
-            out.push_back(sphere);
-        }
-    }
-    return out;
-}
-
 struct Difference {
     double velocity = 0, position = 0;  // m/s, m
 };
@@ -312,13 +139,6 @@ Difference farthest(const std::vector<reference::Sphere>& some,
     return out;
 }
 
-dvec3 momentum(const std::vector<reference::Sphere>& spheres) {
-    dvec3 sum(0);
-    for (const reference::Sphere& sphere : spheres)
-        sum += sphere.velocity / sphere.weight;
-    return sum;
-}
-
 double energy(const std::vector<reference::Sphere>& spheres) {
     double sum = 0;
     for (const reference::Sphere& sphere : spheres)
@@ -329,7 +149,7 @@ double energy(const std::vector<reference::Sphere>& spheres) {
 }  // namespace
 
 TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     for (const vec2 material : {vec2(0, 0), vec2(0.5f, 0.4f), vec2(1, 0)}) {
         const Cloud c = cloud(400, 0.55, material);
         REQUIRE(c.contacts.size() > 300);
@@ -346,7 +166,7 @@ TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]"
 }
 
 TEST_CASE("what has passed through another within a step is found and answered", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     const vec2 material(0.5f, 0.4f);
     const Cloud c = cloud(150, 0.55, material, 6);
     Simulation simulation = startedWith(c.scene, c.velocities, material, path);
@@ -364,7 +184,7 @@ TEST_CASE("what has passed through another within a step is found and answered",
 
 // In free fall, so that what rests has a speed to rest below.
 TEST_CASE("contacts remember over steps as the reference does", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     const vec2 material(0.2f, 0.5f);
     const dvec3 gravity(0, -5, 0);
     Cloud c = cloud(300, 0.4, material);
@@ -401,7 +221,7 @@ TEST_CASE("contacts remember over steps as the reference does", "[molecule conta
 
 TEST_CASE("contact keeps momentum and never adds energy, and a repeat gives the same bits",
           "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     CAPTURE(name(path));
     for (const vec2 material : {vec2(0, 0.5f), vec2(1, 0)}) {
         const Cloud c = cloud(2000, 0.95, material);
@@ -519,30 +339,8 @@ TEST_CASE("UberFlow's response loses momentum where three meet, and only there",
     CHECK(lost({places[0], places[1]}, {velocities[0], velocities[1]}, ContactResponse::nearest) < 1e-5);
 }
 
-TEST_CASE("UberFlow's searches find some of the contacts and nothing else", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
-    CAPTURE(name(path));
-    Scene scene = strewn(600, dvec3(1.5), 0.04);
-    size_t found[3] = {};
-    for (const ContactSearch search :
-         {ContactSearch::single, ContactSearch::staggered, ContactSearch::exact}) {
-        scene.contact.search = search;
-        Simulation simulation = simulationOn(path, compile(scene));
-        simulation.frame();
-        const Pairs pairs = simulation.contact()->found();
-        found[size_t(search)] = pairs.size();
-        const std::vector<reference::Sphere> spheres = spheresOf(compile(scene));
-        for (const auto& pair : missing(reference::touching(spheres), pairs))
-            CHECK(isClose(spheres, pair));
-    }
-    const size_t exact = found[size_t(ContactSearch::exact)];
-    CHECK(found[size_t(ContactSearch::single)] > exact / 4);
-    CHECK(found[size_t(ContactSearch::staggered)] > found[size_t(ContactSearch::single)]);
-    CHECK(found[size_t(ContactSearch::staggered)] <= exact);
-}
-
 TEST_CASE("a run with contact goes on from a saved state bit for bit", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::bdf2Xpbd}) {
         if (path == Path::pingPong && shoal::solver(solver).implicit) continue;
         Scene scene = strewn(200, dvec3(0.9), 0.03);
@@ -590,29 +388,6 @@ TEST_CASE("all paths agree on quads that touch in every contact step", "[molecul
             CHECK(velocity < 5e-3);
         }
     }
-}
-
-TEST_CASE("more contacts than a list holds are left out on both sides, and counted", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(paths()));
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> place(-0.03, 0.03);
-    std::vector<dvec3> positions, velocities;
-    for (int i = 0; i < 60; ++i) {
-        positions.emplace_back(place(random), place(random), place(random));
-        velocities.push_back(20.0 * positions.back());
-    }
-    Simulation simulation = startedWith(marbles(positions, 0.05), velocities, vec2(0.5f, 0.5f), path);
-    const dvec3 start = momentum(statesOf(simulation));
-    simulation.frame();
-    const uint32_t dropped = simulation.contact()->dropped();
-    CAPTURE(name(path), dropped);
-    CHECK(dropped > 500);
-    simulation.frame();
-    CHECK(simulation.contact()->dropped() > dropped);
-    const std::vector<reference::Sphere> after = statesOf(simulation);
-    CHECK(glm::length(momentum(after) - start) < 1e-4);
-    for (const reference::Sphere& sphere : after)
-        CHECK(glm::length(sphere.velocity) < 100);
 }
 
 TEST_CASE("the ping-pong path refuses what only the fused one has of contact", "[molecule contact]") {

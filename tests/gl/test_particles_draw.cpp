@@ -84,23 +84,6 @@ glm::dvec3 light(const glm::ivec4& color) {
     return glm::dvec3(glm::greaterThan(glm::ivec3(color), glm::ivec3(0)));
 }
 
-// Pixels from the left, right, top and bottom edge of what differs from the empty picture.
-struct Extent {
-    int width = 0, height = 0;
-};
-Extent extentOf(const Image& image, const Image& empty) {
-    int left = image.width, right = -1, top = image.height, bottom = -1;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            if (difference(pixel(image, x, y), pixel(empty, x, y)) > 60) {
-                left = std::min(left, x);
-                right = std::max(right, x);
-                top = std::min(top, y);
-                bottom = std::max(bottom, y);
-            }
-    return {right - left + 1, bottom - top + 1};
-}
-
 // The particles' places are moved out of the picture.
 Image emptied(Scene scene, int frames = 0) {
     for (Group& group : scene.groups)

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hard/outcome.h"
+#include "molecule/analysis.h"
 #include "support/catch.h"
 #include "support/colliders.h"
 
@@ -50,17 +51,10 @@ void judgeRest(Judge& judge, Simulation& simulation) {
     judge.atMost("m in 1 s", moved, 1e-5);
 }
 
-double totalMass(const Molecule& molecule) {
-    double sum = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        sum += vertex.mass;
-    return sum;
-}
-
 // m/s: of the centre of mass after a rigid body with the molecule's masses has struck a smooth plane at
 // `speed` with its lowest corners, all of the same height.
 double rigidRebound(const Molecule& molecule, const glm::dquat& turn, double speed, double e) {
-    const double mass = totalMass(molecule);
+    const double mass = analyse(molecule, false).totalMass;
     glm::dvec3 centre(0);
     double lowest = 1e9;
     for (const Vertex& vertex : molecule.vertices) {
@@ -410,7 +404,7 @@ TEST_CASE("hard: impact of a stiff body", "[hard][contact][body]") {
                     for (int m = 0; m < 8; ++m) {
                         const glm::dvec3 momentum =
                             reference::momentum({.molecule = &molecule}, test::stateOf(now, m));
-                        const double v = momentum.y / totalMass(molecule);
+                        const double v = momentum.y / analyse(molecule, false).totalMass;
                         if (v > -1.99) ++since[size_t(m)];
                         if (since[size_t(m)] == 2)  // before another corner comes down
                             judge.near(concat("off the rigid body's / 2 m/s, e ", e), (v - rigid) / 2, 0,

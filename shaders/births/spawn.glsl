@@ -16,72 +16,10 @@ vec3 dv[VERTICES];
 #include "generated/packing.glsl"
 #include "physics/anchor.glsl"
 #include "physics/random.glsl"
-#include "particles/control.glsl"
-#include "particles/emit.glsl"
+#include "births/control.glsl"
+#include "births/emit.glsl"
 #include "state/samples.glsl"
-
-#ifdef LAYERED
-#include "particles/words.glsl"
-uniform usampler2D places;
-uniform usampler2D died;
-uniform usampler2D control;
-uniform int stateRows;  // of texels
-#define placeAt(i) int(wordAt(places, i))
-#define controlWord(w) int(wordOfControl(control, w))
-#else
-#ifdef LISTED
-layout(std430, binding = 3) readonly buffer Places { uint places[]; };
-#endif
-#ifdef CONSTANTS
-layout(std430, binding = 2) writeonly buffer NewConstants { vec4 newConstants[]; };
-#endif
-layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
-layout(std430, binding = 6) buffer Control { uint control[]; };
-// A dispatch spawns those of some newborns whose places lie in one part of the state.
-uniform int firstNewborn;
-uniform int newbornCount;
-uniform int partFirst;
-uniform int partPlaces;
-#ifdef DEATH_RUNS
-// It reads a range of the deaths, and of each emitter's source a part of the state. Newborns that no death emits are
-// spawned by each, the same.
-layout(std430, binding = 5) readonly buffer Died { uint died[]; };
-uniform int firstDied;
-uniform int diedCount;
-uniform ivec4 sourcePlaces[DEATH_RUNS];  // first place, number of places, unused
-#endif
-#define placeAt(i) int(places[i - firstNewborn])
-#define controlWord(w) int(control[w])
-#endif
-
-#ifndef LISTED
-uniform int firstPlace;
-#endif
-#ifdef DEATH_RUNS
-uniform ivec4 deathRuns[DEATH_RUNS];  // emitter, births for each, start of the source's list, unused
-#endif
-uniform int controlBase;
-uniform int placeCount;
-uniform int runCount;
-uniform int givenBorn;         // negative: as many as the GPU has found places for, which are no longer free
-uniform ivec4 runs[RUNS];      // first newborn, emitter, its number there, births at each moment; 0: at random
-uniform vec4 runTimes[RUNS];   // s from the frame's start: first moment, interval
-uniform int groupSeed;
-uniform vec2 lifeSpan;         // s, least and most
-uniform vec2 newbornScale;
-uniform vec3 newbornSpin;      // rad/s, either way
-uniform float newbornPhase;    // rad, at most
-
-struct Source {
-    int molecule;
-    float since;  // s, from the death to the frame's end
-};
-
-struct Start {
-    vec3 lattice;   // m
-    vec3 place;     // m, from there
-    vec3 velocity;  // m/s
-};
+#include "births/given.glsl"
 
 // The first of `count` triangles whose share of the area ends beyond x.
 int triangleAt(int base, int count, float x)
@@ -169,54 +107,7 @@ void shape(Start start)
 #endif
 }
 
-#ifdef DEATH_RUNS
-// Returns the molecule, in the part of its group's state, whose death emits newborn j of a run; -1: another dispatch reads it.
-int sourceOf(int run, int j)
-{
-    int entry = deathRuns[run].z + j / deathRuns[run].y;
-#ifdef LAYERED
-    return int(wordAt(died, entry));
-#else
-    if (entry < firstDied || entry - firstDied >= diedCount) return -1;
-    int molecule = int(died[entry - firstDied]) - sourcePlaces[run].x;
-    return molecule >= 0 && molecule < sourcePlaces[run].y ? molecule : -1;
-#endif
-}
-#endif
-
-// Returns the emitter of newborn i, or -1 where another dispatch makes it, and sets its seed, the molecule whose death emits
-// it, if one does, and its birth in s from the frame's start.
-int findRun(int i, out Source source, out float at)
-{
-    source = Source(0, 0.0);
-#ifdef DEATH_RUNS
-    int run = -1;
-    for (int d = 0; d < DEATH_RUNS; ++d) {
-        if (i >= controlWord(controlBase + controlFirsts + d)) run = d;
-    }
-    if (run >= 0) {
-        ivec4 from = deathRuns[run];
-        int j = i - controlWord(controlBase + controlFirsts + run);
-        source.molecule = sourceOf(run, j);
-        if (source.molecule < 0) return -1;
-        float label;
-        readDeath(from.x, source.molecule, label, source.since);
-        source.since = min(source.since, frameDuration);
-        seed = hashSeed(hashSeed(uint(abs(label)) ^ uint(groupSeed), uint(from.x)), uint(j % from.y)) >> 8u;
-        at = frameDuration - source.since;
-        return from.x;
-    }
-#endif
-    int r = 0;
-    for (int k = 1; k < RUNS; ++k) {
-        if (k < runCount && i >= runs[k].x) r = k;
-    }
-    int j = i - runs[r].x;
-    seed = hashSeed(hashSeed(uint(groupSeed), uint(runs[r].y)), uint(runs[r].z) + uint(j)) >> 8u;
-    float moment = runs[r].w > 0 ? float(j / max(runs[r].w, 1)) : drawn(seed, bornTime);
-    at = clamp(runTimes[r].x + runTimes[r].y * moment, 0.0, frameDuration);
-    return runs[r].y;
-}
+#include "births/run.glsl"
 
 // Makes newborn i of those that find a place, and returns its place; -1: there are not so many, or another dispatch makes it.
 int newborn(int i)

@@ -1,6 +1,6 @@
 // How fragments and vertices read lists of words, in rows of STATE_WIDTH texels, and the words of control, a row of texels
 // of four a group.
-#include "particles/control.glsl"
+#include "births/control.glsl"
 
 uint wordAt(usampler2D list, int i)
 {

@@ -1,8 +1,8 @@
 // words: the words of control, four a texel. The words of one group are computed from the sums over its places: with
 // DEATHS how many molecules died, with CUTS how many newborns took a place that was not free, else how many of the
 // requested births find a place.
-#include "particles/ranks.glsl"
-#include "particles/words.glsl"
+#include "births/ranks.glsl"
+#include "births/words.glsl"
 
 uniform usampler2D control;  // before
 uniform int controlBase;

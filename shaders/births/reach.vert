@@ -1,6 +1,6 @@
 // Two triangles over the rows of places that a step has to reach: one past the last that is taken, or was one step before,
 // on the other side of the state.
-#include "particles/words.glsl"
+#include "births/words.glsl"
 
 uniform usampler2D control;
 uniform int controlBase;

@@ -1,6 +1,6 @@
 // place: a texel each of the first that are set, ascending: all deaths (DEATHS), or as many free places as are asked for.
-#include "particles/ranks.glsl"
-#include "particles/words.glsl"
+#include "births/ranks.glsl"
+#include "births/words.glsl"
 
 uniform usampler2D control;
 uniform int controlBase;

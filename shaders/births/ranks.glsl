@@ -1,4 +1,4 @@
-// Finds places by their rank among those whose bit is set, down the tree of particles/sums.frag: the free ones or, with
+// Finds places by their rank among those whose bit is set, down the tree of births/sums.frag: the free ones or, with
 // DEATHS, those in which one died. Set by C++: LEVELS of the tree, 1 to 4.
 uniform usampler2D bits;
 uniform usampler2D sums1;

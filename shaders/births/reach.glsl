@@ -1,5 +1,5 @@
 // How far the next step goes: one past the last place that is taken, or was one step before, on the other side of the
-// state. Needs particles/control.glsl, the buffer Control and controlBase.
+// state. Needs births/control.glsl, the buffer Control and controlBase.
 uniform int stepLanes;   // molecules that a workgroup of the step takes
 uniform int partPlaces;  // of each part of the state, but the last may have fewer
 uniform int partCount;

@@ -1,6 +1,6 @@
 // Sums of set bits, and one past the last clear one that stands for a place; a lane each WORDS words.
-#include "particles/control.glsl"
-#include "particles/places.glsl"
+#include "births/control.glsl"
+#include "births/places.glsl"
 
 layout(local_size_x = LANES) in;
 

@@ -1,7 +1,7 @@
 // One workgroup: the sums before each lane's words, and what follows from their total: how many died (DEATHS), or how
 // many of the births that are asked for find a place.
-#include "particles/control.glsl"
-#include "particles/places.glsl"
+#include "births/control.glsl"
+#include "births/places.glsl"
 
 layout(local_size_x = LANES) in;
 
@@ -16,7 +16,7 @@ uniform int scheduled;      // births that the CPU knows of
 uniform int allocates;      // 0: only counts
 uniform int deathRunCount;
 uniform ivec4 deathRuns[mostDeathRuns];  // x control of the group that dies, y births for each
-#include "particles/reach.glsl"
+#include "births/reach.glsl"
 #endif
 
 shared uint tops[LANES];

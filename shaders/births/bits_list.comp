@@ -1,7 +1,7 @@
 // The first set bits as a list of their places, in ascending order. With DEATHS all of them, and the bits are cleared;
 // else as many as are born, whose bits are cleared.
-#include "particles/control.glsl"
-#include "particles/places.glsl"
+#include "births/control.glsl"
+#include "births/places.glsl"
 
 layout(local_size_x = LANES) in;
 
@@ -15,7 +15,7 @@ uniform int listFirst;  // rank of the first entry of List,
 uniform int listCount;  // and how many there are
 uniform int clears;     // 0: another dispatch over the same bits follows, for the rest of the list
 #ifndef DEATHS
-#include "particles/reach.glsl"
+#include "births/reach.glsl"
 #endif
 
 void main()

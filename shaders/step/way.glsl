@@ -1,0 +1,112 @@
+// The way of a vertex through a substep, followed from touch to touch.
+
+#ifdef SWEPT
+// Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
+// because this is asked of every vertex in every substep.
+float beyondReach(float free, vec3 velocity, float step)
+{
+    float squared = dot(velocity, velocity);
+    if (collidersMove) squared = 2.0 * (squared + fastestSurface() * fastestSurface());
+    return free * abs(free) - squared * (step * step);
+}
+
+void setWay(vec3 drifted, float step)
+{
+    waySquared = (dot(drifted, drifted) + fastestSurface() * fastestSurface()) * (2.0 * step * step);
+}
+
+// Returns the direction in which a vertex leaves the colliders that it is in: the mean of their normals or, where these
+// cancel, a direction across the normal of the deepest, upwards.
+vec3 wayOut(Survey s, vec3 gravity)
+{
+    Touch t = s.deepest;
+    float together = length(s.outwards);
+    vec3 up = gravity - t.normal * dot(gravity, t.normal);
+    vec3 other = abs(t.normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 across = dot(up, up) > 1e-6 ? -normalize(up) : normalize(cross(t.normal, other));
+    return together > 0.1 ? s.outwards / together : across;
+}
+#endif
+
+// Negative where a vertex is inside a collider, or so near that it may have crossed one.
+float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
+{
+    vec2 free = clearances(anchor, position, time);
+#ifdef SWEPT
+    return min(free.x, beyondReach(free.y, velocity, step));
+#else
+    return free.x;
+#endif
+}
+
+// Where a vertex is on its way through a substep.
+struct Way {
+    vec3 from;    // m
+    float begin;  // s, since the frame's start
+    ivec3 skip;   // numbers of the surfaces that count no more
+    bool caught;  // deep inside a collider where it began
+};
+
+// Returns the next surface that the vertex touches on its way to c.position, where it arrives at the time `end`. Where
+// it touches none, the distance is not negative. For a surface that is looked for along the way, the distance is that
+// of c.position from its plane at the touch, and `way` moves on to that touch.
+//
+// One survey stands here for the way and for its end, because a rasteriser on a CPU runs this text at least once a frame.
+// `at`: the survey of the end.
+Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, out Survey at)
+{
+    Touch found = noTouch();
+    float ago = -1.0;  // s
+#ifdef TABLED
+    // Within the ball that was searched, a vertex can touch only the listed colliders. A moving one may throw it out of
+    // the ball.
+    if (max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
+#endif
+#ifdef SWEPT
+    vec3 path = c.position - way.from;
+    float span = end - way.begin;
+    float most = max(length(path) + fastestSurface() * span, 1e-20);
+    float s = 0.0;  // share of the way; 1: its end
+    bool there = false;
+    for (int n = 0; n <= mostMarches; ++n) {
+        bool ends = s >= 1.0 || n == mostMarches;
+#ifdef TABLED
+        ends = ends || turns > mostTurns;
+#endif
+        at = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
+                    ivec3(way.skip.xy, found.which));
+        if (ends) break;
+        way.caught = way.caught || (first && n == 0 && at.inmost < -caughtDepth);
+#ifdef TABLED
+        if (way.caught) nearKnown = false;  // it may come out far away
+#endif
+        Touch near = at.swept;
+        bool last = n == mostMarches - 1;
+        float approach = dot(path - near.velocity * span, near.normal);
+        float atEnd = near.distance + approach * (1.0 - s);
+        if (way.caught) {
+            s = 1.0;
+        } else if (near.distance > touching && !last) {
+            s += near.distance / most;
+        } else if (atEnd >= 0.0) {
+            way.skip = ivec3(near.which, way.skip.x, -1);  // along it, or away
+        } else if (near.distance > 0.0 && !there && !last) {
+            // on to the touch itself: at an edge the normal changes within micrometres
+            s = min(s - near.distance / approach, 0.999999);
+            there = true;
+        } else {
+            found = near;
+            found.distance = atEnd;
+            way.from += path * s;
+            way.begin += span * s;
+            ago = end - way.begin;
+            s = 1.0;
+        }
+    }
+    found.velocity = at.asked;  // where the substep ends, as of a solid one
+#else
+    at = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
+#endif
+    if (at.entered > ago) found = at.solid;
+    return found;
+}

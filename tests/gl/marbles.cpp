@@ -1,0 +1,110 @@
+#include "gl/marbles.h"
+
+#include <algorithm>
+
+namespace shoal::test {
+
+std::vector<Path> pathsHere() {
+    if (testContext().info().computeShaders) return {Path::fused, Path::fragments, Path::pingPong};
+    return {Path::fragments, Path::pingPong};
+}
+
+Simulation simulationOn(Path path, Plan plan, bool drawn) {
+    return Simulation(testContext(), std::move(plan), {.drawn = drawn, .path = path});
+}
+
+Scene marbles(const std::vector<glm::dvec3>& positions, double radius, double mass) {
+    std::vector<Item> items;
+    for (const glm::dvec3& p : positions)
+        items.push_back(at(p));
+    Scene scene = sceneOf(point(mass), SolverKind::leapfrog, items);
+    scene.groups[0].contact.emplace().radius = radius;
+    setSteps(scene, 0.01, 1);
+    return scene;
+}
+
+Simulation startedWith(const Scene& scene, const std::vector<glm::dvec3>& velocities, glm::vec2 material,
+                       Path path) {
+    Plan plan = compile(scene);
+    for (glm::vec2& pair : plan.contact.pairs)
+        pair = material;
+    size_t next = 0;
+    for (GroupPlan& group : plan.groups)
+        for (glm::vec3& v : group.start.velocities)
+            v = glm::vec3(velocities[next++]);
+    return simulationOn(path, std::move(plan));
+}
+
+std::vector<reference::Sphere> spheresOf(const Plan& plan) {
+    std::vector<reference::Sphere> out;
+    int molecules = 0;
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        for (int m = 0; m < group.count; ++m) {
+            const size_t first = size_t(m) * size_t(group.vertexCount);
+            const auto vertex = [&](int v) {
+                reference::Sphere sphere;
+                sphere.position =
+                    glm::dvec3(group.start.anchors[size_t(m)]) + glm::dvec3(group.start.positions[first + size_t(v)]);
+                sphere.velocity = glm::dvec3(group.start.velocities[first + size_t(v)]);
+                sphere.radius = contact.radius * double(group.constants.scales[size_t(m)]);
+                sphere.weight = contact.shapes[size_t(v)].y > 0 ? 0 : double(contact.shapes[size_t(v)].x);
+                sphere.molecule = molecules + m;
+                return sphere;
+            };
+            for (int v = 0; v < group.vertexCount; ++v)
+                out.push_back(vertex(v));
+            for (const glm::ivec3& t : contact.corners) {
+                reference::Sphere middle = vertex(t.x);
+                middle.position = (vertex(t.x).position + vertex(t.y).position + vertex(t.z).position) / 3.0;
+                out.push_back(middle);
+            }
+        }
+        molecules += group.count;
+    }
+    return out;
+}
+
+Pairs missing(const Pairs& all, const Pairs& some) {
+    Pairs out;
+    std::set_difference(some.begin(), some.end(), all.begin(), all.end(), std::back_inserter(out));
+    return out;
+}
+
+Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale) {
+    Scene scene = sceneOf(shippedMolecule("quad"), SolverKind::leapfrog);
+    Group& group = scene.groups[0];
+    group.count = count;
+    group.place.kind = Placement::Kind::volume;
+    group.place.items.clear();
+    group.place.turn = Placement::Turn::any;
+    group.place.box = {glm::dvec3(0), size};
+    group.place.scale = scale;
+    group.contact.emplace().radius = radius;
+    setSteps(scene, 1e-5, 1);
+    return scene;
+}
+
+std::vector<reference::Sphere> statesOf(const Simulation& simulation) {
+    std::vector<reference::Sphere> out;
+    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
+        const Snapshot snapshot = simulation.snapshot(g);
+        for (size_t i = 0; i < snapshot.positions.size(); ++i) {
+            reference::Sphere sphere;
+            sphere.position = snapshot.positions[i];
+            sphere.velocity = snapshot.velocities[i];
+            sphere.weight = double(simulation.plan().contact.groups[g].shapes[0].x);
+            out.push_back(sphere);
+        }
+    }
+    return out;
+}
+
+glm::dvec3 momentum(const std::vector<reference::Sphere>& spheres) {
+    glm::dvec3 sum(0);
+    for (const reference::Sphere& sphere : spheres)
+        sum += sphere.velocity / sphere.weight;
+    return sum;
+}
+
+}  // namespace shoal::test

@@ -1,0 +1,33 @@
+// Marbles and quads in contact with one another, what the reference makes of them, and what they come to.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "gl/feature_scenes.h"
+#include "gl/numerics.h"
+#include "reference/sphere_response.h"
+
+namespace shoal::test {
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+// Those that the context can run.
+std::vector<Path> pathsHere();
+Simulation simulationOn(Path path, Plan plan, bool drawn = false);
+// Points of some masses, each with contact of one radius, in no gravity.
+Scene marbles(const std::vector<glm::dvec3>& positions, double radius, double mass = 1);
+// With these velocities, group by group, and materials for all pairs of groups.
+Simulation startedWith(const Scene& scene, const std::vector<glm::dvec3>& velocities, glm::vec2 material,
+                       Path path = pathsHere().front());
+// All spheres of the plan's start state, in the order of their numbers.
+std::vector<reference::Sphere> spheresOf(const Plan& plan);
+// Returns the pairs of `some` that `all` lacks.
+Pairs missing(const Pairs& all, const Pairs& some);
+// Quads strewn over a box, with contact.
+Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale = {1, 1});
+// Positions and velocities of all groups of points, in their order.
+std::vector<reference::Sphere> statesOf(const Simulation& simulation);
+glm::dvec3 momentum(const std::vector<reference::Sphere>& spheres);
+
+}  // namespace shoal::test

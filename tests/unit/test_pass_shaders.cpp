@@ -1,0 +1,292 @@
+// The shaders of drawing, sorts, births, contact and schools through the reference compiler, with each set of
+// defines that a plan can ask for.
+#include <algorithm>
+
+#include "compile/contact_plan.h"
+#include "support/catch.h"
+#include "support/shapes.h"
+#include "unit/shader_validator.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const char* file : {"render/screen.vert", "render/sky.frag", "render/picture.frag"})
+        validator.addPicture(file, {});
+    for (const Defines& lit : combinations({"SHADOWS"})) {
+        for (const char* file :
+             {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"}) {
+            for (Defines set : combinations({"TEXTURED"})) {
+                set.insert(set.end(), lit.begin(), lit.end());
+                set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "BLEND noneBlend"});
+                validator.addPicture(file, set);
+            }
+        }
+        for (Defines set : combinations({"SKIN_OFFSETS", "TEXTURES", "GROWS"})) {
+            const bool inTextures = std::find(set.begin(), set.end(), "TEXTURES") != set.end();
+            set.insert(set.end(), lit.begin(), lit.end());
+            set.insert(set.end(), {"BLEND noneBlend", "SKIN_WEIGHTS 8", "STATE_WIDTH 1024"});
+            if (!inTextures) set.insert(set.end(), {"BLOCK 64", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"});
+            validator.addPicture("render/skinned.vert", set);
+            validator.addPicture("render/molecule.frag", set);
+            set.push_back("DEPTH_ONLY");
+            validator.addPicture("render/skinned.vert", set);
+        }
+        for (Defines set : {Defines{}, Defines{"PLANE"}}) {
+            set.insert(set.end(), lit.begin(), lit.end());
+            validator.addPicture("render/surface.vert", set);
+            validator.addPicture("render/surface.frag", set);
+        }
+    }
+    for (Defines set : combinations({"TEXTURED"})) {
+        set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "DEPTH_ONLY"});
+        for (const char* file : {"render/molecule.vert", "render/molecule_shadow.frag", "render/points.vert",
+                                 "render/points.frag"})
+            validator.addPicture(file, set);
+    }
+    for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend"})
+        validator.addPicture("render/molecule.frag", {blend});
+    for (const char* file : {"render/molecule.vert", "render/points.vert"})
+        validator.addPicture(file, {"TEXTURES", "STATE_WIDTH 1024", "COLOR_BY"});
+    for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
+        validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend"});
+    validator.addPicture("render/sky.frag", {"WATER"});
+    validator.addPicture("render/picture.frag", {"BEAMS", "OCCLUSION"});
+    for (const Defines& pass : {Defines{}, Defines{"BLUR"}})
+        validator.addPicture("render/occlusion.frag", pass);
+    for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend", "BLEND alphaBlend"})
+        validator.addPicture("particles/particle.frag", {"WATER", "LIT", "FACING cameraFacing", blend});
+    validator.addPicture("render/beams.frag", {});
+    validator.addPicture("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"});
+    validator.addPicture("water/caustics.frag", {"TEXELS 512"});
+    validator.addPicture("render/sky.frag", {"LINEAR_LIGHT"});
+    validator.addPicture("render/sky.frag", {"CLOUDS"});
+    validator.addPicture("render/clouds.frag", {});
+    for (const char* medium : {"WATER", "WIDE_SHADOWS"})
+        validator.addPicture("render/surface.frag", {"LINEAR_LIGHT", "SHADOWS", "REFRACTS", medium});
+    validator.addPicture("render/picture.frag", {"LINEAR_LIGHT"});
+    validator.addPicture("render/picture.frag", {"CLEAR"});
+    validator.addPicture("render/picture.frag", {"CLEAR", "LINEAR", "OCCLUSION"});
+    validator.addPicture("render/covered.frag", {});
+    validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
+    validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});
+    for (const auto& more :
+         {std::vector<std::string>{"BLENDED"}, {"IMAGES", "HOLES"}, {"BLENDED", "IMAGES", "HOLES"}}) {
+        std::vector<std::string> defines = {"DEPTH_ONLY"};
+        defines.insert(defines.end(), more.begin(), more.end());
+        validator.addPicture("render/surface_shadow.frag", defines);
+    }
+    validator.check();
+}
+
+TEST_CASE("the shaders that draw in order are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    const std::vector<Defines> orders = {{"ORDER_BUFFER"}, {"ORDER_PAIRED"}, {}};
+    for (const Defines& order : orders) {
+        for (const char* turns : {"", "SLABS", "SLAB_DRAWS"}) {
+            Defines set = order;
+            set.insert(set.end(),
+                       {"TEXTURES", "STATE_WIDTH 1024", "ORDERED", "BLEND alphaBlend", "LINEAR_LIGHT"});
+            if (*turns != 0) set.emplace_back(turns);
+            for (const char* file :
+                 {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"})
+                validator.addPicture(file, set);
+        }
+        Defines keys = order;
+        keys.insert(keys.end(), {"TEXTURES", "STATE_WIDTH 1024"});
+        validator.addPicture("render/slabs.frag", order);
+        if (order != orders[0]) {
+            validator.addPicture("render/order_keys.frag", keys);
+            continue;
+        }
+        keys.emplace_back("LANES 64");
+        validator.add("render/order_keys.comp", keys, gpu::header430());
+        keys.emplace_back("STREAMS 6");
+        validator.add("render/slab_draws.comp", keys, gpu::header430());
+    }
+    validator.check();
+}
+
+TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    const std::vector<Defines> shapes = {
+        {"POINTS", "FACING cameraFacing"},
+        {"SPRITES", "FACING cameraFacing", "SIZES", "TURNS", "IMAGE", "TILES tileOfSeed", "FADES false"},
+        {"FACING cameraFacing", "SIZES", "GROWS", "TURNS", "COLORS", "IMAGE", "TILES tilesAgain",
+         "FADES true", "LIFE"},
+        {"FACING velocityFacing", "COLORS", "LIFE"},
+        {"FACING freeFacing", "TURNS", "IMAGE", "TILES tilesOnce", "FADES false", "LIFE"}};
+    const std::vector<Defines> looks = {{"BLEND noneBlend", "DEPTH_ONLY"},
+                                        {"BLEND noneBlend", "LIT"},
+                                        {"BLEND alphaBlend", "LIT", "SHADOWS", "SOFT", "ORDERED", "SLABS"},
+                                        {"BLEND additiveBlend", "SOFT", "ORDERED", "SLAB_DRAWS"},
+                                        {"BLEND multiplicativeBlend", "LINEAR_LIGHT"}};
+    for (const Defines& shape : shapes) {
+        for (Defines set : looks) {
+            const bool quads = shape[0] != "POINTS" && shape[0] != "SPRITES";
+            set.insert(set.end(), shape.begin(), shape.end());
+            set.insert(set.end(),
+                       {"TEXTURES", "STATE_WIDTH 1024", "BATCH 64", quads ? "CORNERS 4" : "CORNERS 1"});
+            validator.addPicture("particles/particle.vert", set);
+            validator.addPicture("particles/particle.frag", set);
+        }
+    }
+    CHECK(validator.count() == 118);
+    validator.check();
+}
+
+TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const char* file : {"sort/odd_even_merge.frag", "sort/bitonic.frag"})
+        validator.addBoth(file, {});
+    validator.addBoth("sort/bitonic.frag", {"TIES_BY_INDEX"});
+    validator.addBoth("sort/starts.frag", {"ROW_BITS 4"});
+    const Defines sizes = {"LANES 256", "MOST_DIGITS 2048", "TILE_PAIRS 2048"};
+    for (const char* file : {"sort/pieces_count.comp", "sort/pieces_scan.comp", "sort/pieces_scatter.comp",
+                             "sort/tiles_count.comp", "sort/tiles_scan.comp", "sort/tiles_scatter.comp"})
+        validator.add(file, sizes, gpu::header430());
+    validator.check();
+}
+
+TEST_CASE("the shaders of births are sound GLSL, of WebGL 2 as well", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const Allocator allocator : {Allocator::gpu, Allocator::ring}) {
+        Scene scene =
+            leafScene({"springs", "triangles", "drag by direction", "fields", "colliders", "forces"},
+                      SolverKind::bdf2Xpbd, FieldSampling::vertexSubstep);
+        Group& group = scene.groups[0];
+        group.name = "leaves";
+        group.place.scale = {0.5, 0.6};
+        Lifecycle& life = group.life.emplace();
+        life.capacity = 2 * group.count;
+        life.allocator = allocator;
+        life.within = Box{{-1, -1, -1}, {1, 1, 1}};
+        life.afterContact = 1;
+        using From = Emitter::From;
+        for (const From from : {From::point, From::line, From::disc, From::sphere, From::box, From::death}) {
+            if (from == From::death && allocator != Allocator::gpu) continue;
+            Emitter& emitter = life.emitters.emplace_back();
+            emitter.from = from;
+            emitter.radius = 1;
+            emitter.rate = from == From::death ? 0 : 1;
+            emitter.group = from == From::death ? "sparks" : "";
+            if (from == From::sphere) emitter.along = Emitter::Along::outward;
+        }
+        Group sparks = group;
+        sparks.name = "sparks";
+        sparks.life->emitters.clear();
+        scene.groups.push_back(sparks);
+        const Plan plan = compile(scene);
+        validator.addKernel(plan, {.work = KernelOptions::Work::births});
+        validator.addFragments(plan, {});
+    }
+    for (const char* levels : {"LEVELS 1", "LEVELS 2", "LEVELS 3", "LEVELS 4"}) {
+        for (const char* what : {"DEATHS", "CUTS", "WORDS"}) {
+            const Defines set = {levels, what, "STATE_WIDTH 1024"};
+            for (const char* file : {"control", "list", "sums"})
+                validator.addBoth(concat("births/", file, ".frag"), set);
+        }
+        for (const char* file : {"control", "sums"})
+            validator.addBoth(concat("births/", file, ".frag"), {levels, "STATE_WIDTH 1024"});
+    }
+    for (const Defines& set : combinations({"DEATHS", "LIFE"})) {
+        Defines all = {"LAYERED", "STATE_WIDTH 1024", "POSITION_ELEMENTS 1", "STATE_ELEMENTS 2"};
+        all.insert(all.end(), set.begin(), set.end());
+        validator.addBoth("births/bits.frag", all);
+    }
+    CHECK(validator.count() > 80);
+    validator.check();
+}
+
+TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    validator.generated = generate({}, collidersToValidate());
+    const Defines common{"LIST 24",
+                         "NEIGHBORS 4",
+                         concat("NEAR ", ContactPlan::near),
+                         concat("MOST_WALLS ", ContactPlan::mostWalls),
+                         "REMEMBERS",
+                         "BLOCK 16",
+                         "POSITION_ELEMENTS 3",
+                         "VERTICES 4",
+                         "SPHERES 6",
+                         "HISTORY",
+                         "NO_HISTORY 1e30"};
+    const auto add = [&](const char* file, const Defines& set, Defines more = {}) {
+        more.insert(more.end(), set.begin(), set.end());
+        more.insert(more.end(), common.begin(), common.end());
+        more.emplace_back("STATE_ELEMENTS 12");
+        validator.add(concat("contact/", file, ".comp"), more, gpu::header430());
+    };
+    for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
+        for (const char* file : {"order", "find", "prepare", "relax", "settle"})
+            add(file, set);
+        for (const Defines& spread : {Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}})
+            for (const char* file : {"prepare", "relax", "settle"})
+                add(file, set, spread);
+        for (const Defines& first :
+             {Defines{"FIRST"}, Defines{"FIRST", "SPREAD"}, Defines{"FIRST", "SPREAD", "BODIES"}})
+            add("relax", set, first);
+    }
+    for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {
+        for (const char* file : {"sift", "wake", "weigh", "rest"})
+            add(file, set, {"RESTING"});
+        add("find", set, {"RESTING", "AMONG_RESTING"});
+    }
+    for (const Defines& set : combinations({"RESTING", "TRIANGLES", "RIGID", "LIFE"})) {
+        for (const char* file : {"spheres", "effective_sum", "spread"})
+            add(file, set);
+        add("apply", set, {"APPLIES", "MANY"});
+    }
+    add("apply", {"RESTING"}, {"APPLIES"});
+    CHECK(validator.count() > 70);
+    validator.check();
+}
+
+TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Scene scene;
+    Group group;
+    group.name = "pairs";
+    group.molecule = test::pair(1, 2, 100, 0);
+    group.count = 3;
+    group.school = School{};
+    scene.groups = {group};
+    const Plan plan = compile(scene);
+    Validator validator;
+    validator.generated["generated/body.glsl"] = plan.school.bodies.at(0).text;
+    std::vector<glm::vec4> samples;
+    validator.generated["generated/colliders.glsl"] = generateColliders(collidersToValidate(), samples).source;
+    const auto addBothForms = [&](const std::string& name, Defines set) {
+        set.insert(set.end(), {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "GRIDS 3"});
+        Defines compute = set, fragments = set;
+        compute.emplace_back("BLOCK 16");
+        validator.add("school/" + name + ".comp", compute, gpu::header430());
+        fragments.insert(fragments.end(), {"ROW_BITS 4", "LAYERED", "STATE_WIDTH 1024"});
+        validator.addBoth("school/" + name + ".frag", fragments);
+    };
+    addBothForms("keys", {});
+    addBothForms("order", {});
+    validator.addBoth("school/steered.frag",
+                      {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "ROW_BITS 4", "STATE_WIDTH 1024"});
+    for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
+                               Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
+        Defines sizes = {"POSITION_ELEMENTS 2"};
+        sizes.insert(sizes.end(), set.begin(), set.end());
+        addBothForms("body", sizes);
+    }
+    for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2"}, Defines{"TARGETS 1", "WALLS"}}) {
+        Defines all = {"CLOCK_PERIOD float(0.25)", "POSITION_ELEMENTS 2", "STATE_ELEMENTS 4"};
+        all.insert(all.end(), set.begin(), set.end());
+        addBothForms("steer", all);
+    }
+    CHECK(validator.count() == 26);
+    validator.check();
+}
