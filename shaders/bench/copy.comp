@@ -6,7 +6,7 @@ layout(local_size_x = LANES) in;
 uniform samplerBuffer source;
 uniform int elements;
 
-layout(std430, binding = 0) writeonly buffer Target { ELEMENT copied[]; };
+layout(std430) writeonly buffer Target { ELEMENT copied[]; };
 
 void main()
 {

@@ -3,7 +3,7 @@ layout(local_size_x = LANES) in;
 
 uniform vec4 factor, addend;
 
-layout(std430, binding = 0) writeonly buffer Result { float result[]; };
+layout(std430) writeonly buffer Result { float result[]; };
 
 void main()
 {

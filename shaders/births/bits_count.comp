@@ -4,8 +4,8 @@
 
 layout(local_size_x = LANES) in;
 
-layout(std430, binding = 0) readonly buffer Bits { uint bits[]; };
-layout(std430, binding = 1) writeonly buffer Counts { uvec2 counts[]; };  // x set bits, y one past the last clear one
+layout(std430) readonly buffer Bits { uint bits[]; };
+layout(std430) writeonly buffer Counts { uvec2 counts[]; };  // x set bits, y one past the last clear one
 
 void main()
 {

@@ -5,10 +5,10 @@
 
 layout(local_size_x = LANES) in;
 
-layout(std430, binding = 0) buffer Bits { uint bits[]; };
-layout(std430, binding = 1) readonly buffer Counts { uvec2 counts[]; };
-layout(std430, binding = 2) buffer Control { uint control[]; };
-layout(std430, binding = 3) writeonly buffer List { uint list[]; };
+layout(std430) buffer Bits { uint bits[]; };
+layout(std430) readonly buffer Counts { uvec2 counts[]; };
+layout(std430) buffer Control { uint control[]; };
+layout(std430) writeonly buffer List { uint list[]; };
 
 uniform int controlBase;
 uniform int listFirst;  // rank of the first entry of List,

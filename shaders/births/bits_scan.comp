@@ -7,8 +7,8 @@ layout(local_size_x = LANES) in;
 
 #include "sort/group_scan.glsl"
 
-layout(std430, binding = 1) buffer Counts { uvec2 counts[]; };
-layout(std430, binding = 2) buffer Control { uint control[]; };
+layout(std430) buffer Counts { uvec2 counts[]; };
+layout(std430) buffer Control { uint control[]; };
 
 uniform int controlBase;
 #ifndef DEATHS

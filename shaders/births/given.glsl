@@ -1,4 +1,4 @@
-// What the dispatch, or draw, that spawns newborns is given.
+// The arrays and numbers that a dispatch, or a draw, which spawns newborns is given.
 #ifdef LAYERED
 #include "births/words.glsl"
 uniform usampler2D places;
@@ -9,13 +9,13 @@ uniform int stateRows;  // of texels
 #define controlWord(w) int(wordOfControl(control, w))
 #else
 #ifdef LISTED
-layout(std430, binding = 3) readonly buffer Places { uint places[]; };
+layout(std430) readonly buffer Places { uint places[]; };
 #endif
 #ifdef CONSTANTS
-layout(std430, binding = 2) writeonly buffer NewConstants { vec4 newConstants[]; };
+layout(std430) writeonly buffer NewConstants { vec4 newConstants[]; };
 #endif
-layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
-layout(std430, binding = 6) buffer Control { uint control[]; };
+layout(std430) buffer FreeBits { uint freeBits[]; };
+layout(std430) buffer Control { uint control[]; };
 // A dispatch spawns those of some newborns whose places lie in one part of the state.
 uniform int firstNewborn;
 uniform int newbornCount;
@@ -24,7 +24,7 @@ uniform int partPlaces;
 #ifdef DEATH_RUNS
 // It reads a range of the deaths, and of each emitter's source a part of the state. Newborns that no death emits are
 // spawned by each, the same.
-layout(std430, binding = 5) readonly buffer Died { uint died[]; };
+layout(std430) readonly buffer Died { uint died[]; };
 uniform int firstDied;
 uniform int diedCount;
 uniform ivec4 sourcePlaces[DEATH_RUNS];  // first place, number of places, unused

@@ -3,7 +3,7 @@
 uniform int stepLanes;   // molecules that a workgroup of the step takes
 uniform int partPlaces;  // of each part of the state, but the last may have fewer
 uniform int partCount;
-layout(std430, binding = 4) writeonly buffer StepGroups { uvec4 stepGroups[]; };  // of each part's step: workgroups x y z
+layout(std430) writeonly buffer StepGroups { uvec4 stepGroups[]; };  // of each part's step: workgroups x y z
 
 void reachTo(uint mark)
 {

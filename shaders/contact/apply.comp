@@ -11,9 +11,11 @@ uniform float stepTime;     // s, of a contact step
 uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
-layout(std430, binding = 0) buffer State { float state[]; };
+layout(std430) buffer State { float state[]; };
+#ifdef REMEMBERS
 // By sphere: loadOf(); in w above 0: its molecule rests.
-layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };
+layout(std430) writeonly buffer Loads { vec4 loads[]; };
+#endif
 
 void change(int molecule, int vertex, Total by)
 {

@@ -1,6 +1,6 @@
 // How many spheres each cell of the table has, `keys` of them, while the grid is made; behind them, how many each tile of
 // CELL_TILE cells has. Zero between two grids. Sums of whole numbers by atomics are exact in any order.
-layout(std430, binding = 5) buffer CellCounts { uint cellCounts[]; };
+layout(std430) buffer CellCounts { uint cellCounts[]; };
 
 uniform int keys;
 

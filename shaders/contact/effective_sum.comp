@@ -3,7 +3,7 @@
 #include "contact/effective_sum.glsl"
 #include "contact/resting.glsl"
 
-layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
+layout(std430) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
 
 #ifdef RIGID
 void main()

@@ -1,6 +1,6 @@
 // How many slots are awake, and how many marked; and thrice the words that glDispatchComputeIndirect takes: workgroups of 64 lanes,
 // a lane a slot that is awake; that is marked; a lane a slot if an impact has struck what rests, and else none.
-layout(std430, binding = 7) buffer MarkGroups {
+layout(std430) buffer MarkGroups {
     uint awakeX;
     uint awakeY;
     uint awakeZ;

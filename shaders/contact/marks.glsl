@@ -1,6 +1,6 @@
 // What a step marks slots with whose molecule rests (contact/flags.glsl), and a list of the marked ones.
-layout(std430, binding = 3) buffer Marks { uint marks[]; };
-layout(std430, binding = 4) buffer MarkedSlots { uint markedSlots[]; };
+layout(std430) buffer Marks { uint marks[]; };
+layout(std430) buffer MarkedSlots { uint markedSlots[]; };
 #include "contact/marked.glsl"
 
 void mark(int slot, uint with)

@@ -7,7 +7,7 @@ uniform usamplerBuffer arrivals;  // by sphere: x key, y how many spheres of the
 uniform usamplerBuffer starts;
 uniform int count;
 
-layout(std430, binding = 1) writeonly buffer Members { uint members[]; };
+layout(std430) writeonly buffer Members { uint members[]; };
 
 void main()
 {

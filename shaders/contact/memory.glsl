@@ -27,7 +27,7 @@ bool remembersAt(int memory)
 // By sphere: xyz the sum of what its contacts remember, N s, which has acted as a force since. w has two meanings: between two steps
 // the number of contacts that it remembers, plus a half where a collider pushes; from contact/prepare.comp to contact/settle.comp how
 // much colliders pushed at first, N s.
-layout(std430, binding = 3) buffer Known { vec4 known[]; };
+layout(std430) buffer Known { vec4 known[]; };
 
 int memoryOf(int sphere)
 {

@@ -2,7 +2,7 @@
 #include "contact/touching.glsl"
 #include "contact/nearest.glsl"
 
-layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
+layout(std430) writeonly buffer Totals { vec4 newTotals[]; };
 
 void main()
 {

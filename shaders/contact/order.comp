@@ -7,23 +7,23 @@ uniform usamplerBuffer starts;
 uniform usamplerBuffer members;   // the spheres of a cell beside one another
 uniform bool onlyOrder;           // of a second grid
 
-layout(std430, binding = 0) writeonly buffer Sorted { uvec2 sorted[]; };
-layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
-layout(std430, binding = 4) writeonly buffer Cells { uvec4 newCells[]; };
+layout(std430) writeonly buffer Sorted { uvec2 sorted[]; };
+layout(std430) writeonly buffer Places { uvec4 newPlaces[]; };
+layout(std430) writeonly buffer Cells { uvec4 newCells[]; };
 #else
 #include "sort/starts.glsl"
 
 uniform int keyMask;
 
 // A 4-vector as two doubles, because a CPU rasteriser makes its stores one by one.
-layout(std430, binding = 1) writeonly buffer Places { dvec2 newPlaces[]; };
-layout(std430, binding = 4) writeonly buffer Cells { dvec2 newCells[]; };
+layout(std430) writeonly buffer Places { dvec2 newPlaces[]; };
+layout(std430) writeonly buffer Cells { dvec2 newCells[]; };
 #endif
-layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
+layout(std430) writeonly buffer Slots { uint slots[]; };
 #ifdef RESTING
 #include "contact/marked.glsl"
 
-layout(std430, binding = 3) writeonly buffer Marks { uint marks[]; };
+layout(std430) writeonly buffer Marks { uint marks[]; };
 #endif
 #include "contact/touching_groups.glsl"
 

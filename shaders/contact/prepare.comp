@@ -3,17 +3,17 @@
 #include "contact/prepare.glsl"
 #ifdef WALLS
 // By sphere, two texels a collider: its push, and that of the iteration before or, between two steps, its normal.
-layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };
+layout(std430) buffer WallPushes { vec4 wallPushes[]; };
 #endif
 
-layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
-layout(std430, binding = 1) writeonly buffer Pushes { vec4 pushes[]; };
-layout(std430, binding = 2) writeonly buffer Anchors { vec4 anchors[]; };
+layout(std430) writeonly buffer Totals { vec4 newTotals[]; };
+layout(std430) writeonly buffer Pushes { vec4 pushes[]; };
+layout(std430) writeonly buffer Anchors { vec4 anchors[]; };
 #ifdef SPREAD
-layout(std430, binding = 4) writeonly buffer ContactSums { vec4 newContacts[]; };  // two a slot: contact/effective_sum.glsl
+layout(std430) writeonly buffer ContactSums { vec4 newContacts[]; };  // two a slot: contact/effective_sum.glsl
 #else
-layout(std430, binding = 4) writeonly buffer EffectiveCounts { uint newEffectiveCounts[]; };
-layout(std430, binding = 6) writeonly buffer MotionsNow { vec4 motionsNow[]; };  // contact/relax.glsl
+layout(std430) writeonly buffer EffectiveCounts { uint newEffectiveCounts[]; };
+layout(std430) writeonly buffer MotionsNow { vec4 motionsNow[]; };  // contact/relax.glsl
 #endif
 
 void main()

@@ -8,8 +8,8 @@
 
 uniform ENTRIES anchors;
 
-layout(std430, binding = 4) writeonly buffer Normals { vec4 normals[]; };
-layout(std430, binding = 6) writeonly buffer Amounts { vec4 amounts[]; };
+layout(std430) writeonly buffer Normals { vec4 normals[]; };
+layout(std430) writeonly buffer Amounts { vec4 amounts[]; };
 
 Constraint constraintOf(int slot, int e)
 {
@@ -31,16 +31,16 @@ Constraint constraintOf(int slot, int e)
 
 uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since the last step
 
-layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
-layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
-layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // read as the ones before, written as the next
+layout(std430) writeonly buffer Totals { vec4 newTotals[]; };
+layout(std430) readonly buffer Pushes { vec4 pushes[]; };
+layout(std430) buffer EarlierPushes { vec4 earlierPushes[]; };  // read as the ones before, written as the next
 #ifndef SPREAD
 uniform float nextMomentum;  // of the next iteration
 
-layout(std430, binding = 3) writeonly buffer MotionsNext { vec4 motionsNext[]; };
+layout(std430) writeonly buffer MotionsNext { vec4 motionsNext[]; };
 #endif
 #ifdef WALLS
-layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
+layout(std430) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
 #endif
 
 void main()

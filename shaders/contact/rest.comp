@@ -17,12 +17,12 @@ uniform float wakeSpeed;        // m/s
 uniform bool probes;            // what rests has been stepped
 uniform bool wakes;             // all molecules of the group
 
-layout(std430, binding = 0) buffer State { float state[]; };
-layout(std430, binding = 1) buffer Loads { vec4 loads[]; };  // contact/apply.comp; w of what rests: RESTED or JUST_RESTED
+layout(std430) buffer State { float state[]; };
+layout(std430) buffer Loads { vec4 loads[]; };  // contact/apply.comp; w of what rests: RESTED or JUST_RESTED
 // By sphere. Of what is awake: xyz where its vertex was, m from the anchor; in w of the first sphere for how long all have stayed
 // there, s. Of what rests: xyz the velocity that its vertex gains in the first step, m/s; w how much its contacts pushed then
 // (contact/weigh.comp), N s, or -1: nobody has asked yet.
-layout(std430, binding = 2) buffer Calm { vec4 calm[]; };
+layout(std430) buffer Calm { vec4 calm[]; };
 
 const float AWAKE = 0.0;
 const float RESTED = 1.0;

@@ -5,16 +5,16 @@
 uniform ENTRIES pushes;
 uniform ENTRIES anchors;
 
-layout(std430, binding = 0) buffer Totals { vec4 totals[]; };
+layout(std430) buffer Totals { vec4 totals[]; };
 // contact/memory.glsl
-layout(std430, binding = 1) writeonly buffer Partners { uint partners[]; };
-layout(std430, binding = 2) writeonly buffer OldPushes { vec4 oldPushes[]; };
-layout(std430, binding = 3) buffer Known { vec4 known[]; };
-layout(std430, binding = 4) writeonly buffer OldAnchors { vec4 oldAnchors[]; };
+layout(std430) writeonly buffer Partners { uint partners[]; };
+layout(std430) writeonly buffer OldPushes { vec4 oldPushes[]; };
+layout(std430) buffer Known { vec4 known[]; };
+layout(std430) writeonly buffer OldAnchors { vec4 oldAnchors[]; };
 #ifdef WALLS
 #include "contact/near_walls.glsl"
 
-layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
+layout(std430) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
 #endif
 
 void main()

@@ -6,8 +6,8 @@ uniform samplerBuffer known;  // contact/memory.glsl
 uniform int listStride;
 #include "contact/recalled.glsl"
 
-layout(std430, binding = 0) writeonly buffer AwakeSlots { uint awakeSlots[]; };
-layout(std430, binding = 1) writeonly buffer Counts { uint counts[]; };
+layout(std430) writeonly buffer AwakeSlots { uint awakeSlots[]; };
+layout(std430) writeonly buffer Counts { uint counts[]; };
 
 void main()
 {

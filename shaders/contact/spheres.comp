@@ -7,26 +7,26 @@ uniform int label;       // of the group's first molecule
 uniform vec3 cellShift;  // m, of a staggered grid
 uniform bool onlyKeys;   // the records have been written
 
-layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
+layout(std430) writeonly buffer Keys { uvec2 pairs[]; };
 #ifdef COUNTED
 #include "contact/cell_counts.glsl"
 #else
 uniform int keys;  // of the table of cells
 #endif
-layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
-layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
-layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
+layout(std430) writeonly buffer SpherePlaces { uvec4 newPlaces[]; };
+layout(std430) writeonly buffer Motions { uvec4 newMotions[]; };
+layout(std430) writeonly buffer SphereCells { uvec4 newCells[]; };
 #ifdef REMEMBERS
-layout(std430, binding = 6) buffer Loads { vec4 loads[]; };  // contact/apply.comp leaves those of the next step
+layout(std430) buffer Loads { vec4 loads[]; };  // contact/apply.comp leaves those of the next step
 #endif
 #ifdef RESTING
 uniform bool wakes;  // all molecules of the group
 #endif
 #ifdef WALLS
-layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
+layout(std430) writeonly buffer Walls { vec4 newWalls[]; };
 #endif
 #ifdef RIGID
-layout(std430, binding = 7) writeonly buffer Bodies { vec4 newBodies[]; };
+layout(std430) writeonly buffer Bodies { vec4 newBodies[]; };
 #endif
 
 void main()

@@ -5,7 +5,7 @@
 
 uniform usamplerBuffer motions;
 
-layout(std430, binding = 0) writeonly buffer MotionsNow { vec4 motionsNow[]; };
+layout(std430) writeonly buffer MotionsNow { vec4 motionsNow[]; };
 
 void store(int sphere, Total change)
 {

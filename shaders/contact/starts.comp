@@ -5,7 +5,7 @@
 
 layout(local_size_x = LANES) in;
 
-layout(std430, binding = 1) writeonly buffer Starts { uint starts[]; };
+layout(std430) writeonly buffer Starts { uint starts[]; };
 
 const int PER_LANE = CELL_TILE / LANES;
 

@@ -2,9 +2,9 @@
 #ifdef TEXTURES
 uvec4 entries[LIST / 4];
 #else
-layout(std430, binding = 0) buffer Lists { uint lists[]; };
-layout(std430, binding = 1) buffer Counts { uint counts[]; };
-layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
+layout(std430) buffer Lists { uint lists[]; };
+layout(std430) buffer Counts { uint counts[]; };
+layout(std430) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
 #include "contact/touching_groups.glsl"
 
 uniform int listStride;
@@ -106,7 +106,7 @@ bool haveMet(vec3 d, float reach, int slot)
 #endif
 
 #ifdef RESTING
-// What is awake marks what rests when it touches it.
+// An awake sphere marks the resting ones that it touches.
 void markResting(int slot, vec3 d, float reach)
 {
     if (rested(ownSlot) || !rested(slot)) return;

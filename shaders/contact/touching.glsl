@@ -1,5 +1,5 @@
 // The slots that take part in the response (RESPONDS in contact/flags.glsl), in no particular order: no lane depends on another.
-layout(std430, binding = 5) buffer Touching {
+layout(std430) buffer Touching {
     uint touching;
     uint touchingSlots[];
 };

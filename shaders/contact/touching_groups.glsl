@@ -3,7 +3,7 @@
 
 // The words that glDispatchComputeIndirect takes: workgroups of 64 lanes, a lane a slot that takes part. They have a buffer of their
 // own, because a driver may watch over the whole buffer that it takes them from.
-layout(std430, binding = 6) buffer Groups {
+layout(std430) buffer Groups {
     uint groupsX;
     uint groupsY;
     uint groupsZ;

@@ -7,17 +7,17 @@
 
 uniform float wakeSpeed;  // m/s
 
-layout(std430, binding = 0) writeonly buffer Totals { vec4 totals[]; };
+layout(std430) writeonly buffer Totals { vec4 totals[]; };
 // contact/memory.glsl
-layout(std430, binding = 1) buffer Partners { uint partners[]; };
-layout(std430, binding = 2) buffer OldPushes { vec4 oldPushes[]; };
-layout(std430, binding = 3) buffer Known { vec4 known[]; };
-layout(std430, binding = 4) buffer OldAnchors { vec4 oldAnchors[]; };
-layout(std430, binding = 5) buffer Calm { vec4 calm[]; };  // contact/rest.comp
+layout(std430) buffer Partners { uint partners[]; };
+layout(std430) buffer OldPushes { vec4 oldPushes[]; };
+layout(std430) buffer Known { vec4 known[]; };
+layout(std430) buffer OldAnchors { vec4 oldAnchors[]; };
+layout(std430) buffer Calm { vec4 calm[]; };  // contact/rest.comp
 #ifdef WALLS
 #include "contact/walls.glsl"
 
-layout(std430, binding = 6) readonly buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
+layout(std430) readonly buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
 #endif
 uniform usamplerBuffer slots;  // of a sphere
 uniform usamplerBuffer markedSlots;
@@ -40,7 +40,7 @@ Entry mirrored(int sphere, int other)
     return Entry(vec4(-push.xyz, push.w), vec4(-anchor.xyz, anchor.w));
 }
 
-// What the contacts of a sphere push, N s.
+// The impulses of the contacts of a sphere, N s.
 struct Pushes {
     vec3 sum;
     float lengths;  // the sum of their lengths

@@ -1,4 +1,4 @@
-// What a lane works out of its molecule's other vertices (fused/shared_vertices.glsl).
+// Forces, normals and means from a molecule's other vertices (fused/shared_vertices.glsl).
 //
 // Sums run over the springs and triangles in their order, as generated/forces.glsl writes them out for a lane a molecule: the
 // bits are the same.

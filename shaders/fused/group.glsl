@@ -2,7 +2,7 @@
 // one lane's registers. For fused/frame.glsl.
 #include "fused/store.glsl"
 #ifdef NORMALS
-layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
+layout(std430) writeonly buffer NewNormals { ELEMENT newNormals[]; };
 #endif
 
 int ownMolecule()

@@ -3,7 +3,7 @@
 #include "fused/store.glsl"
 #endif
 #if defined(NORMALS) && !defined(LAYERED)
-layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
+layout(std430) writeonly buffer NewNormals { ELEMENT newNormals[]; };
 #endif
 
 #include "generated/packing.glsl"

@@ -1,7 +1,7 @@
 // The buffers to which a lane writes a molecule: the whole state, and its record.
 #include "state/stored.glsl"
 
-layout(std430, binding = 0) writeonly buffer NewState { ELEMENT newState[]; };
+layout(std430) writeonly buffer NewState { ELEMENT newState[]; };
 #ifdef RECORDS
-layout(std430, binding = 1) writeonly buffer NewRecords { vec4 newRecords[]; };
+layout(std430) writeonly buffer NewRecords { vec4 newRecords[]; };
 #endif

@@ -16,7 +16,7 @@ bool runsAway()
 }
 
 #ifndef LAYERED
-layout(std430, binding = 3) buffer Alarm { uint alarm; };
+layout(std430) buffer Alarm { uint alarm; };
 
 void watch()
 {

@@ -3,9 +3,9 @@
 // place, so that neighbours that die together leave the same bits in whatever order. In fragments the state itself tells
 // (births/bits.frag). A place that is free stays so. Needs fused/state.glsl.
 #ifndef LAYERED
-layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
+layout(std430) buffer FreeBits { uint freeBits[]; };
 #ifdef DEATHS
-layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };
+layout(std430) buffer DiedBits { uint diedBits[]; };
 #endif
 #endif
 #ifdef CONFINED

@@ -3,7 +3,7 @@
 
 layout(local_size_x = LANES) in;
 
-layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };  // x key, y molecule
+layout(std430) writeonly buffer Pairs { uvec2 pairs[]; };  // x key, y molecule
 
 void main()
 {

@@ -9,7 +9,7 @@ uniform usampler2D slabs;  // texel s: x the first key of slab s, y the first on
 uniform int slabCount, moleculeCount;
 uniform ivec4 streams[STREAMS];  // x corners, y the first index, z molecules an instance; one for all slabs or one each
 
-layout(std430, binding = 0) writeonly buffer Draws { uint draws[]; };
+layout(std430) writeonly buffer Draws { uint draws[]; };
 
 void main()
 {

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 uniform int partMolecules;
 uniform int firstBody;  // of the part
 
-layout(std430, binding = 0) writeonly buffer Bodies { vec4 bodies[]; };
+layout(std430) writeonly buffer Bodies { vec4 bodies[]; };
 
 void main()
 {

@@ -1,4 +1,4 @@
-// What others know of a molecule, and what it knows of itself, in BODY_ELEMENTS 4-vectors:
+// The body of a molecule as it and others see it, in BODY_ELEMENTS 4-vectors:
 //   xyz place, m from the schools' origin         w  1 + seed; 0: it does not live
 //   xyz velocity, m/s                             w  x of the turning of its body, rad/s
 //   xyz ahead, along its body; unit               w  y of it

@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 
 uniform int count;
 
-layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
+layout(std430) writeonly buffer Sorted { uvec2 pairs[]; };
 
 void main()
 {

@@ -7,8 +7,8 @@ layout(local_size_x = 64) in;
 uniform int count;
 uniform int keyCount;
 
-layout(std430, binding = 1) writeonly buffer Places { vec4 places[]; };
-layout(std430, binding = 2) writeonly buffer Velocities { vec4 velocities[]; };
+layout(std430) writeonly buffer Places { vec4 places[]; };
+layout(std430) writeonly buffer Velocities { vec4 velocities[]; };
 
 void main()
 {

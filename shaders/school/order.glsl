@@ -1,4 +1,4 @@
-// What those of a school read of one another, in the order of the sorted keys.
+// The numbers that members of a school read of one another, in the order of the sorted keys.
 #include "school/bodies.glsl"
 
 vec4 placeOf(int body)

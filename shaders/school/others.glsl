@@ -1,4 +1,4 @@
-// What a member of a school sees of the others, and of those that it flees or hunts.
+// Sums over the members that one of a school sees, and over those that it flees or hunts.
 
 // The slots of three cells of a row: from x up to below y, where those at `slots` and beyond start over.
 ivec2 runOf(ivec4 grid, ivec3 cell)

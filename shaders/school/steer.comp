@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 uniform usamplerBuffer sorted;
 
-layout(std430, binding = 0) buffer Steering { vec4 steering[]; };
+layout(std430) buffer Steering { vec4 steering[]; };
 
 void main()
 {

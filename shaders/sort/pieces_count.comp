@@ -7,7 +7,7 @@ uniform usamplerBuffer pairs;  // x key, y index
 uniform int count, parts;      // pairs; lanes with a piece
 uniform int piece;             // pairs of one
 
-layout(std430, binding = 0) writeonly buffer Counts { uint counts[]; };
+layout(std430) writeonly buffer Counts { uint counts[]; };
 
 uint own[MOST_DIGITS];
 

@@ -6,10 +6,10 @@ layout(local_size_x = LANES) in;
 uniform usamplerBuffer pairs;
 uniform int count, parts, piece;
 
-layout(std430, binding = 0) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 1) readonly buffer Totals { uint totals[]; };
+layout(std430) readonly buffer Counts { uint counts[]; };
+layout(std430) readonly buffer Totals { uint totals[]; };
 // A pair as one double, because a CPU rasteriser makes its stores one by one.
-layout(std430, binding = 2) writeonly buffer Sorted { double sorted[]; };
+layout(std430) writeonly buffer Sorted { double sorted[]; };
 
 uint place[MOST_DIGITS];
 

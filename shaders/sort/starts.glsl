@@ -2,7 +2,7 @@
 // atomic: the sort is stable, and the first slot of a key writes the starts of all keys since the one before it.
 uniform usamplerBuffer sorted;  // x key, y index
 
-layout(std430, binding = 0) writeonly buffer Starts { uint starts[]; };
+layout(std430) writeonly buffer Starts { uint starts[]; };
 
 // Writes what this slot, of `count`, settles; `key` is its own, of `keys`.
 void writeStarts(int slot, uint key, int count, int keys)

@@ -7,8 +7,8 @@ layout(local_size_x = LANES) in;
 
 uniform int count, parts;  // pairs; tiles
 
-layout(std430, binding = 0) writeonly buffer Counts { uint counts[]; };
-layout(std430, binding = 3) readonly buffer Pairs { uvec2 pairs[]; };  // x key, y index
+layout(std430) writeonly buffer Counts { uint counts[]; };
+layout(std430) readonly buffer Pairs { uvec2 pairs[]; };  // x key, y index
 
 shared uint own[LANES];  // at most as many digits
 

@@ -6,8 +6,8 @@ layout(local_size_x = LANES) in;
 
 uniform int digits, parts;
 
-layout(std430, binding = 0) buffer Counts { uint counts[]; };
-layout(std430, binding = 1) writeonly buffer Totals { uint totals[]; };
+layout(std430) buffer Counts { uint counts[]; };
+layout(std430) writeonly buffer Totals { uint totals[]; };
 
 void main()
 {

@@ -11,10 +11,10 @@ layout(local_size_x = LANES) in;
 
 uniform int count, parts;
 
-layout(std430, binding = 0) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 1) readonly buffer Totals { uint totals[]; };
-layout(std430, binding = 2) writeonly buffer Sorted { uvec2 sorted[]; };
-layout(std430, binding = 3) readonly buffer Pairs { uvec2 pairs[]; };
+layout(std430) readonly buffer Counts { uint counts[]; };
+layout(std430) readonly buffer Totals { uint totals[]; };
+layout(std430) writeonly buffer Sorted { uvec2 sorted[]; };
+layout(std430) readonly buffer Pairs { uvec2 pairs[]; };
 
 const int PER_LANE = TILE_PAIRS / LANES, WORDS = 8;
 

@@ -2,7 +2,7 @@
 // A kernel, all lanes of which read the same entry, has it in a buffer.
 uniform int topologyBase;  // of the group
 #ifdef ROWS
-layout(std430, binding = 6) readonly buffer Topology { vec4 topology[]; };
+layout(std430) readonly buffer Topology { vec4 topology[]; };
 
 vec4 table(int index)
 {

@@ -25,7 +25,7 @@ int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mes
 int moleculeNewCommand(const Options& options);       // shoal molecule new
 int moleculeShowCommand(const Options& options);      // shoal molecule show
 
-// What check tells of a scene and its molecules beside the plan's own warnings.
+// Returns the warnings of check beside the plan's own.
 std::vector<Warning> warningsOfStart(const Scene& scene, const Plan& plan);
 
 // With --sandbox: from now on only what lies in the folder of `file`, in the shipped data, in the cache and

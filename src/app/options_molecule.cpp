@@ -13,7 +13,7 @@ namespace shoal::app {
 
 namespace {
 
-// What is made of a mesh, whichever it is.
+// Declares the options of all that is made of a mesh.
 void addMaking(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     FromMesh& make = molecule.fromMesh;

@@ -111,7 +111,7 @@ int braceSoftModes(Draft& draft);
 
 // Edits of the whole shape (reshape.cpp). Each tells why it does nothing; else nothing.
 
-// What lies where the axis' coordinate is above 0 becomes the image of what lies below.
+// Replaces the side where the axis' coordinate is above 0 by the mirror image of the other.
 std::string mirrorSide(Draft& draft, int axis);
 // Each of the triangles, or all if there are none, becomes four; springs along their edges become two of
 // twice the stiffness, and the mass in all stays. Those beside them are cut so that no gap opens.

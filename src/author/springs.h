@@ -1,4 +1,4 @@
-// Which vertices of a coarse mesh are sprung, and why.
+// Chooses the pairs of vertices of a coarse mesh that get springs, and says why.
 #pragma once
 
 #include <set>

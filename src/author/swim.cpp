@@ -1,4 +1,4 @@
-// What swims: which way it lies, and its muscles.
+// Turns a shape so that it swims along +Z, and gives it its muscles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

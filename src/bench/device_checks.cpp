@@ -169,7 +169,7 @@ class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
         throw Error("no scene of this name ships");
     }
 
-    // What auto asks of a path before it takes it.
+    // Makes the check by which auto decides on a path.
     void selfChecks() {
         for (const Path path : {Path::fused, Path::fragments, Path::pingPong})
             for (const CheckedPart part : {CheckedPart::step, CheckedPart::contact})

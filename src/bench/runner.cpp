@@ -104,9 +104,9 @@ class KernelCopy : public BufferCopy {
     void frame() override {
         const int elements = int(sides_[0].bytes() / sizeof(glm::vec4));
         program_.use();
-        program_.texture("source", 0, textures_[current_]);
+        program_.texture("source", textures_[current_]);
         current_ = 1 - current_;
-        program_.storage("Target", 0, sides_[current_], 0, sides_[0].bytes());
+        program_.storage("Target", sides_[current_], 0, sides_[0].bytes());
         program_.set("elements", elements);
         program_.dispatch((elements + lanesOfGroup - 1) / lanesOfGroup);
         gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
@@ -135,7 +135,7 @@ class MultiplyAdd : public BenchRunner {
         program_.use();
         program_.set("factor", glm::vec4(0.999f, 0.998f, 0.997f, 0.996f));
         program_.set("addend", glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
-        program_.storage("Result", 0, result_, 0, result_.bytes());
+        program_.storage("Result", result_, 0, result_.bytes());
         program_.dispatch(groups);
         gpu::barrier({gpu::Barrier::storage});
     }

@@ -90,7 +90,7 @@ Location settingOf(const Scene& scene, const char* key) {
     return out;
 }
 
-// What falls freely is not to rest.
+// Refuses a `rest` so large that a falling molecule would rest.
 void checkRest(const Scene& scene, int steps) {
     const ContactSettings& settings = scene.contact;
     if (!settings.rest) return;

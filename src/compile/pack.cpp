@@ -134,7 +134,7 @@ static glm::vec4 muscleOf(const Molecule& molecule, const GroupPlan& group, cons
     return {actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase, number};
 }
 
-// Which elements touch each vertex, in their order; `cornersOf` returns the vertices of one.
+// Lists the elements at each vertex, in their order; `cornersOf` returns the vertices of one.
 template <typename Element, typename Corners>
 static std::vector<std::vector<size_t>> around(size_t vertices, const std::vector<Element>& elements,
                                                const Corners& cornersOf) {

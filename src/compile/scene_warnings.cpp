@@ -155,7 +155,7 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
     }
 }
 
-// What swims lies along +Z, and swims with its muscles; a point has neither.
+// Warns of a swimmer that does not lie along +Z or has no muscles; a point has neither.
 void warnOfSwimmers(const Scene& scene, const Group& group, const GroupPlan& plan,
                     std::vector<Warning>& warnings) {
     const Molecule& molecule = group.molecule;

@@ -1,4 +1,4 @@
-// What is valid in a scene and probably not what was meant, as far as a plan shows it.
+// Warns of what is valid in a scene and probably not meant, as far as a plan shows it.
 #pragma once
 
 #include "compile/plan.h"

@@ -58,7 +58,7 @@ std::unique_ptr<ChildProcess> startProgram(std::vector<std::string> command, con
 // A program's exit code; -1: a signal ended it.
 int exitCode(int status);
 
-// What helpers say, for an error's text: the end of it, without the last line break.
+// Returns the end of what a helper said, without the last line break, for an error's text.
 std::string lastWords(const MemoryFile& file);
 
 }  // namespace shoal

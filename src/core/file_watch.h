@@ -1,5 +1,5 @@
-// Which of some files have changed, by looking at their sizes and times a few times a second: works the same
-// on every system and file system, and for editors that write another file and rename it.
+// Finds which of some files have changed, by looking at their sizes and times a few times a second: works the
+// same on every system and file system, and for editors that write another file and rename it.
 //
 // A change counts once the file has stood still between two looks, so that nobody reads half of one; a file
 // that is gone counts only after a while, because some editors move the old one away first.

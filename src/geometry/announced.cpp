@@ -27,7 +27,7 @@ std::optional<size_t> trianglesOfStl(const std::string& text) {
     return linesThatBeginWith("facet", text);
 }
 
-// What an animation repeats of a mesh is no triangle more.
+// Leaves out the shapes that an animation repeats of a mesh.
 std::optional<size_t> trianglesOfAse(const std::string& text) {
     if (isBinary(text) || text.find("*MESH_ANIMATION") != std::string::npos) return std::nullopt;
     return linesThatBeginWith("*MESH_FACE", text);

@@ -73,7 +73,7 @@ struct Mesh {
     glm::dvec3 low{0}, high{0};  // bounding box
 };
 
-// What is said of a cloud of points where a surface is needed.
+// The message where a surface is needed and there is a cloud of points.
 constexpr const char* noTriangles = "has no triangles, expected a mesh with at least one";
 
 constexpr int largestModelImage = 2048;  // larger ones are halved when they are read

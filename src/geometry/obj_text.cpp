@@ -11,7 +11,7 @@ namespace shoal {
 
 namespace {
 
-// What stands before the first blank, which goes from `text` with the blanks behind it.
+// Takes the first word off `text`, with the blanks behind it, and returns it.
 std::string_view firstWord(std::string_view& text) {
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
     text = trimmed(text.substr(word.size()));

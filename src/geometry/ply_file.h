@@ -1,5 +1,5 @@
-// What a PLY file holds [Turk 1994]: its header, and row by row what its elements say, as text or as bytes of
-// either order. For the reader of models of that name (read_ply.cpp) alone.
+// The content of a PLY file [Turk 1994]: its header, and row by row what its elements say, as text or as
+// bytes of either order. For the reader of models of that name (read_ply.cpp) alone.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace shoal {
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 size_t bytesOf(PlyType type);
-// What counts as 1 where a number of this type is a share, as in colours.
+// The number of this type that stands for 1 in shares such as colours.
 double fullShare(PlyType type);
 
 struct PlyProperty {

@@ -34,7 +34,7 @@ struct Influences {
     const GltfArray *joints = nullptr, *weights = nullptr;
 };
 
-// What is read of a primitive.
+// The parts of a primitive that are read.
 struct Corners {
     Attribute position, normal, color, uv;
     std::vector<Influences> influences;

@@ -17,7 +17,7 @@ namespace shoal {
 
 namespace {
 
-// What a property of a vertex or face is, by its name.
+// Tells by its name what a property of a vertex or face is.
 enum class Means {
     x,
     y,

@@ -103,7 +103,7 @@ BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char*
     texels_ = bytes / texelBytes;
     checkTexels(context.info(), texels_, label);
     handle_ = Handle<deleteTexture>(glGenTextures);
-    glBindTexture(GL_TEXTURE_BUFFER, id());
+    bindToEdit(GL_TEXTURE_BUFFER, id());
     if (whole)
         glTexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
     else

@@ -12,6 +12,7 @@
 #include "gpu/framebuffer.h"
 #include "gpu/gl.h"
 #include "gpu/platform.h"
+#include "gpu/program.h"
 #include "gpu/program_cache.h"
 
 namespace shoal::gpu {
@@ -139,6 +140,7 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
         std::min(getInteger(GL_MAX_COLOR_ATTACHMENTS), getInteger(GL_MAX_DRAW_BUFFERS));
     info.maxSamples = getInteger(GL_MAX_SAMPLES);
     info.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
+    info.maxTextureUnits = std::min(getInteger(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), editUnit);
     info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);
     info.maxUniformBlockBytes = getInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
     info.maxFragmentUniformComponents = getInteger(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS);
@@ -259,6 +261,7 @@ Context::Context(const ContextOptions& options) {
 }
 
 void drawVertices(int count, GLenum primitive) {
+    checkGiven();
     glBindVertexArray(currentState->noAttributes);
     glDrawArrays(primitive, 0, count);
 }

@@ -100,6 +100,7 @@ struct ContextInfo {
     bool software = false;  // a CPU rasteriser
 
     int maxTextureSize = 0, maxColorAttachments = 0, maxSamples = 0, maxVertexTextureUnits = 0;
+    int maxTextureUnits = 0;  // of a program, all stages together
     int max3DTextureSize = 0, maxTextureLayers = 0;
     float maxPointSize = 1;  // pixels, of GL_POINTS
     int64_t maxBufferTexels = 0;
@@ -161,7 +162,7 @@ class Context {
     std::unique_ptr<State> state_;
 };
 
-// Which contexts this machine offers, for `shoal info`.
+// Lists the contexts that this machine offers, for `shoal info`.
 struct ContextProbe {
     ContextKind kind = ContextKind::automatic;
     std::optional<ContextInfo> info;  // empty when the context cannot be had

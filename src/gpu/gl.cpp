@@ -22,6 +22,11 @@ static GLsizei lengthOf(std::string_view text) {
     return static_cast<GLsizei>(length);
 }
 
+void bindToEdit(GLenum target, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(editUnit));
+    glBindTexture(target, texture);
+}
+
 DebugGroup::DebugGroup(const ContextInfo& info, const char* name) : open_(info.atLeast(4, 3)) {
     if (open_) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, lengthOf(name), name);
 }

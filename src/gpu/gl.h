@@ -47,6 +47,11 @@ class Handle {
     GLuint id_ = 0;
 };
 
+// The texture unit at which textures are made and filled, the last of the 48 that OpenGL 3.3 promises: what
+// programs read stays at theirs.
+inline constexpr int editUnit = 47;
+void bindToEdit(GLenum target, GLuint texture);
+
 // A named bracket around OpenGL calls, which debuggers and profilers show. Nothing below OpenGL 4.3.
 class DebugGroup {
   public:

@@ -1,5 +1,6 @@
 #include "gpu/program.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -88,8 +89,25 @@ std::string withoutIndex(std::string name) {
     return name;
 }
 
-std::map<std::string, GLint, std::less<>> readLocations(GLuint program) {
-    std::map<std::string, GLint, std::less<>> out;
+bool isSampler(GLenum type) {
+    switch (type) {
+    case GL_SAMPLER_2D:
+    case GL_SAMPLER_3D:
+    case GL_SAMPLER_2D_SHADOW:
+    case GL_SAMPLER_2D_ARRAY:
+    case GL_SAMPLER_BUFFER:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+    case GL_UNSIGNED_INT_SAMPLER_BUFFER:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Calls visit(name, type) for each uniform that is used.
+template <typename Visit>
+void forUniforms(GLuint program, const Visit& visit) {
     GLint count = 0, longest = 0;
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     glGetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
@@ -98,26 +116,19 @@ std::map<std::string, GLint, std::less<>> readLocations(GLuint program) {
         GLint size = 0;
         GLenum type = 0;
         glGetActiveUniform(program, static_cast<GLuint>(i), longest + 1, nullptr, &size, &type, name.data());
-        const GLint location = glGetUniformLocation(program, name.c_str());
-        if (location >= 0) out.emplace(withoutIndex(name.c_str()), location);  // -1: member of a block
+        visit(name.c_str(), type);
     }
-    return out;
-}
-
-// A storage block that the compiler left out has no binding, and fits any.
-constexpr GLint dropped = -1;
-
-GLint storageBinding(GLuint program, const std::string& block) {
-    const GLuint index = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block.c_str());
-    if (index == GL_INVALID_INDEX) return dropped;
-    const GLenum property = GL_BUFFER_BINDING;
-    GLint bound = dropped;
-    glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, index, 1, &property, 1, nullptr, &bound);
-    return bound;
 }
 
 // The program that use() took last, for contracts: asking the driver at each uniform would make it wait.
 GLuint lastUsed = 0;
+// What lies at each unit and binding, as far as programs have put it there.
+std::vector<GLuint> textureAt, bufferAt;
+
+void put(std::vector<GLuint>& at, size_t place, GLuint what) {
+    if (at.size() <= place) at.resize(place + 1);
+    at[place] = what;
+}
 
 std::mutex firstGuard;
 std::string first;  // label of the program that is made, or used for the first time
@@ -164,22 +175,64 @@ Program::Program(Context& context, const ProgramOptions& options)
         }
     }
     endFirstUse();
-    locations_ = readLocations(id());
     for (const Stage& stage : stages) {
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
             declared_.merge(declared(*text, "uniform"));
-        for (const std::string& block : declared(stage.source.text, "buffer"))
-            storageBindings_.emplace(block, storageBinding(id(), block));
+        declaredBlocks_.merge(declared(stage.source.text, "buffer"));
     }
+    findSlots(info);
     labelObject(context, GL_PROGRAM, id(), label_.c_str());
 }
+
+void Program::findSlots(const ContextInfo& info) {
+    forUniforms(id(), [&](const char* name, GLenum type) {
+        const GLint location = glGetUniformLocation(id(), name);
+        if (location < 0) return;  // a member of a block
+        locations_.emplace(withoutIndex(name), location);
+        if (isSampler(type)) slots_->samplers.emplace_back(name);
+    });
+    slots_->textures.resize(slots_->samplers.size());
+    for (const std::string& block : declaredBlocks_) {
+        const GLuint index = glGetProgramResourceIndex(id(), GL_SHADER_STORAGE_BLOCK, block.c_str());
+        if (index == GL_INVALID_INDEX) continue;  // the compiler left it out
+        glShaderStorageBlockBinding(id(), index, static_cast<GLuint>(slots_->blocks.size()));
+        slots_->blocks.push_back(block);
+    }
+    slots_->buffers.resize(slots_->blocks.size());
+    constexpr size_t mostBlocks = 8;  // that OpenGL 4.3 promises
+    EXPECTS(slots_->blocks.size() <= mostBlocks);
+    if (slots_->samplers.size() <= size_t(info.maxTextureUnits)) return;
+    throw Error(concat("program \"", label_, "\" reads ", slots_->samplers.size(),
+                       " textures; this context has units for ", info.maxTextureUnits));
+}
+
+// The slots of the program in use.
+static std::weak_ptr<void> slotsInUse;
 
 void Program::use() const {
     glUseProgram(id());
     lastUsed = id();
+    slotsInUse = slots_;
     if (used_) return endFirstUse();
     used_ = true;
     beginFirstUse(label_);
+}
+
+void checkGiven() {
+#ifndef SHOAL_NO_CONTRACTS
+    const std::shared_ptr<void> used = slotsInUse.lock();
+    if (!used) return;
+    const auto& slots = *static_cast<const Program::Slots*>(used.get());
+    const auto check = [](const std::vector<std::string>& names, const std::vector<GLuint>& given,
+                          const std::vector<GLuint>& at) {
+        for (size_t i = 0; i < names.size(); ++i)
+            if (given[i] == 0 || given[i] != at[i])
+                contractBroken(__FILE__, __LINE__,
+                               concat("the program in use was not given \"", names[i], "\"").c_str());
+    };
+    check(slots.samplers, slots.textures, textureAt);
+    check(slots.blocks, slots.buffers, bufferAt);
+#endif
 }
 
 std::string firstUse() {
@@ -205,12 +258,16 @@ GLint Program::location(const char* name) const {
     return -1;  // which OpenGL ignores
 }
 
-void Program::bindSampler(const char* name, int unit) const {
-    const GLint where = location(name);
-    const auto [bound, first] = units_.try_emplace(where, unit);
-    if (!first && bound->second == unit) return;
-    bound->second = unit;
-    glUniform1i(where, unit);
+int Program::unitFor(const char* sampler, GLuint texture) const {
+    const GLint where = location(sampler);
+    if (where < 0) return -1;
+    const auto& names = slots_->samplers;
+    const size_t unit = size_t(std::find(names.begin(), names.end(), sampler) - names.begin());
+    EXPECTS(unit < names.size() && "it is a sampler");
+    if (slots_->textures[unit] == 0) glUniform1i(where, static_cast<GLint>(unit));
+    slots_->textures[unit] = texture;
+    put(textureAt, unit, texture);
+    return int(unit);
 }
 
 void Program::set(const char* name, const glm::mat3& value) const {
@@ -229,32 +286,35 @@ void Program::set(const char* name, std::span<const glm::vec4> values) const {
     glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 
-void Program::uniformBlock(const char* block, int binding, const Buffer& buffer) const {
+void Program::uniformBlock(const char* block, const Buffer& buffer) const {
     const GLuint index = glGetUniformBlockIndex(id(), block);
     EXPECTS(declared_.count(std::string_view(block)) == 1 && "no such block in the shader");
     if (index == GL_INVALID_INDEX) return;
-    glUniformBlockBinding(id(), index, static_cast<GLuint>(binding));
-    buffer.bindUniform(binding);
+    glUniformBlockBinding(id(), index, index);
+    buffer.bindUniform(static_cast<int>(index));
 }
 
-void Program::storage(const char* block, int binding, const Buffer& buffer, size_t offset,
-                      size_t bytes) const {
-    const auto declared = storageBindings_.find(std::string_view(block));
-    EXPECTS(declared != storageBindings_.end() && "no such storage block in the shader");
-    EXPECTS((declared->second == binding || declared->second == dropped) &&
-            "the shader's layout has another binding");
-    buffer.bindStorage(binding, offset, bytes);
+void Program::storage(const char* block, const Buffer& buffer, size_t offset, size_t bytes) const {
+    EXPECTS(declaredBlocks_.count(std::string_view(block)) == 1 && "no such storage block in the shader");
+    const auto& names = slots_->blocks;
+    const size_t binding = size_t(std::find(names.begin(), names.end(), block) - names.begin());
+    if (binding == names.size()) return;  // the compiler left it out
+    slots_->buffers[binding] = buffer.id();
+    put(bufferAt, binding, buffer.id());
+    buffer.bindStorage(static_cast<int>(binding), offset, bytes);
 }
 
 void Program::dispatch(int groupsX, int groupsY) const {
     EXPECTS(inUse() && "use() goes before dispatch()");
     EXPECTS(groupsX >= 0 && groupsY >= 0);
+    checkGiven();
     glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY), 1);
 }
 
 void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
     EXPECTS(inUse() && "use() goes before dispatchIndirect()");
     EXPECTS(offset % 4 == 0 && offset + 3 * sizeof(uint32_t) <= groups.bytes());
+    checkGiven();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }

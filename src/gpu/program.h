@@ -5,6 +5,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -52,20 +53,19 @@ class Program {
     void set(const char* name, std::span<const glm::vec4> values) const;
     void set(const char* name, std::span<const glm::ivec4> values) const;
 
-    // Binds the texture to the unit and, where it is not yet, the sampler to it.
+    // Textures and storage buffers are given by the names that the shader declares; each sampler has a unit
+    // of its own, and each block a binding. What a dispatch or a draw reads must have been given since the
+    // program is in use (a contract, which names what is missing).
     template <typename AnyTexture>
-    void texture(const char* sampler, int unit, const AnyTexture& texture) const {
-        texture.bind(unit);
-        bindSampler(sampler, unit);
+    void texture(const char* sampler, const AnyTexture& texture) const {
+        if (const int unit = unitFor(sampler, texture.id()); unit >= 0) texture.bind(unit);
     }
-    void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
-    // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
-    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a
-    // contract).
-    void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
-    void storage(const char* block, int binding, const Buffer& buffer) const {
-        storage(block, binding, buffer, 0, buffer.bytes());
-    }
+    void uniformBlock(const char* block, const Buffer& buffer) const;
+    void storage(const char* block, const Buffer& buffer, size_t offset, size_t bytes) const;
+    void storage(const char* block, const Buffer& buffer) const { storage(block, buffer, 0, buffer.bytes()); }
+    // The samplers and storage blocks that the compiler kept.
+    const std::vector<std::string>& samplers() const { return slots_->samplers; }
+    const std::vector<std::string>& blocks() const { return slots_->blocks; }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX, int groupsY = 1) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
@@ -77,18 +77,29 @@ class Program {
     explicit operator bool() const { return bool(handle_); }
 
   private:
+    friend void checkGiven();
+    // What its samplers and blocks were given last, each at its unit or binding.
+    struct Slots {
+        std::vector<std::string> samplers, blocks;
+        std::vector<GLuint> textures, buffers;
+    };
+
     bool inUse() const;
     GLint location(const char* name) const;
-    void bindSampler(const char* name, int unit) const;
+    int unitFor(const char* sampler, GLuint texture) const;
+    void findSlots(const ContextInfo& info);
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
     mutable bool used_ = false;
-    mutable std::map<GLint, int> units_;                       // by the location of a sampler
-    std::set<std::string, std::less<>> declared_;              // uniforms
-    std::map<std::string, int, std::less<>> storageBindings_;  // of each storage block
+    std::shared_ptr<Slots> slots_ = std::make_shared<Slots>();  // at one place when the program is moved
+    std::set<std::string, std::less<>> declared_;               // uniforms
+    std::set<std::string, std::less<>> declaredBlocks_;         // storage blocks
     std::string label_;
 };
+
+// A contract, for who draws: all that the program in use reads is where it was given.
+void checkGiven();
 
 // Returns the label of the program that is being made or used for the first time, when rasterisers compile
 // it, for any thread to ask; empty: there is none.

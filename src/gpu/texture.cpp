@@ -79,7 +79,7 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
         throw Error(concat(what, " is too large: this context allows ", largest, " x ", largest));
     context.checkErrors("before a texture is made");
     handle_ = Handle<deleteTexture>(glGenTextures);
-    glBindTexture(target(), id());
+    bindToEdit(target(), id());
     const FormatRow& storage = row(format);
     const auto internal = static_cast<GLint>(storage.internal);
     if (layers > 0)
@@ -100,7 +100,7 @@ void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void*
     EXPECTS(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
     EXPECTS(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layer < std::max(layers_, 1));
     const FormatRow& storage = row(format_);
-    glBindTexture(target(), id());
+    bindToEdit(target(), id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (layers_ > 0)
         glTexSubImage3D(target(), 0, x, y, layer, w, h, 1, storage.layout, storage.type, data);
@@ -130,7 +130,7 @@ void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* dat
 }
 
 void Texture::setLinear(bool mipmaps, bool repeat) {
-    glBindTexture(target(), id());
+    bindToEdit(target(), id());
     const GLint wrap = repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     glTexParameteri(target(), GL_TEXTURE_WRAP_S, wrap);
     glTexParameteri(target(), GL_TEXTURE_WRAP_T, wrap);
@@ -142,7 +142,7 @@ void Texture::setLinear(bool mipmaps, bool repeat) {
 
 void Texture::setShadowCompare() {
     EXPECTS(isDepth(format_));
-    glBindTexture(GL_TEXTURE_2D, id());
+    bindToEdit(GL_TEXTURE_2D, id());
     const GLfloat lit[] = {1, 1, 1, 1};
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
@@ -170,7 +170,7 @@ VolumeTexture::VolumeTexture(Context& context, Format format, const glm::ivec3& 
         throw Error(concat(what, " is too large: this context allows ", largest, " a side"));
     context.checkErrors("before a texture is made");
     handle_ = Handle<deleteTexture>(glGenTextures);
-    glBindTexture(GL_TEXTURE_3D, id());
+    bindToEdit(GL_TEXTURE_3D, id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(storage.internal), size.x, size.y, size.z, 0,
                  storage.layout, storage.type, data.data());

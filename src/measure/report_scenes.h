@@ -54,8 +54,8 @@ struct ReportEntry {
 };
 
 // The tables, in Markdown.
-// Which solver is cheapest at `error` and how many times as fast as euler; a row a motion and molecule, a
-// column a stiffness.
+// Tells which solver is cheapest at `error` and how many times as fast as euler; a row a motion and molecule,
+// a column a stiffness.
 std::string speedUpTable(const std::vector<ReportEntry>& entries, double error);
 // Nanoseconds per vertex and simulated second of every solver at `error`; a row a scene.
 std::string costTable(const std::vector<ReportEntry>& entries, double error);

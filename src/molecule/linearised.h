@@ -13,7 +13,7 @@ namespace shoal {
 constexpr size_t mostDense = 300;      // vertices of which matrices are made
 constexpr double zeroRelative = 1e-9;  // an eigenvalue below this share of the largest is zero
 
-// Which vertices move, and where their coordinates stand in the matrices; -1 for pinned.
+// The row of each vertex's first coordinate in the matrices; -1 where it is pinned.
 struct Freedom {
     std::vector<int> index;
     int count = 0;

@@ -1,4 +1,4 @@
-// What a function of the module says where its arguments do not fit: its own words instead of pybind11's.
+// Replaces pybind11's message about arguments that do not fit by one of ours.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// What may change of a simulation between frames.
+// The parameters of a simulation that may change between frames.
 #pragma once
 
 #include "python/simulation.h"

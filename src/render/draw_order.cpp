@@ -24,25 +24,25 @@ void StateReader::bind(const gpu::Program& program, const StateView& state,
                        const GroupBuffers::Part* part) const {
     if (state.textures) {
         const TextureState& textures = *state.textures;
-        program.texture("positions", unit::positions, textures.position.read(index));
-        program.texture("velocities", unit::velocities, textures.velocity.read(index));
-        program.texture("records", unit::records, textures.record.read(index));
-        program.texture("constants", unit::constants, textures.constant);
-        if (textures.normal) program.texture("normals", unit::normals, textures.normal);
+        program.texture("positions", textures.position.read(index));
+        program.texture("velocities", textures.velocity.read(index));
+        program.texture("records", textures.record.read(index));
+        program.texture("constants", textures.constant);
+        if (textures.normal) program.texture("normals", textures.normal);
         program.set("groupRows", rows);
         return;
     }
     if (state.layers) {
         const GroupLayers& layers = (*state.layers)[index];
-        program.texture("states", unit::positions, layers.state());
-        program.texture("records", unit::records, layers.records());
-        if (layers.hasNormals()) program.texture("normals", unit::normals, layers.normals());
+        program.texture("states", layers.state());
+        program.texture("records", layers.records());
+        if (layers.hasNormals()) program.texture("normals", layers.normals());
         return;
     }
     const GroupBuffers& buffers = (*state.buffers)[index];
-    program.texture("states", unit::positions, buffers.oldState(*part));
-    program.texture("records", unit::records, part->record);
-    if (buffers.hasNormals()) program.texture("normals", unit::normals, part->normal);
+    program.texture("states", buffers.oldState(*part));
+    program.texture("records", part->record);
+    if (buffers.hasNormals()) program.texture("normals", part->normal);
 }
 
 // ---- The order
@@ -76,9 +76,9 @@ std::vector<std::string> DrawOrder::defines() const {
 
 void DrawOrder::bind(const gpu::Program& program) const {
     if (network_)
-        program.texture("order", unit::order, network_->pairs());
+        program.texture("order", network_->pairs());
     else
-        program.texture("order", unit::order, pairTexels_);
+        program.texture("order", pairTexels_);
 }
 
 const gpu::Program& DrawOrder::keysProgram(const StateView& state) {
@@ -125,7 +125,7 @@ void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) 
         return;
     }
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});  // the last picture has read the order
-    program.storage("Pairs", 0, pairs_);
+    program.storage("Pairs", pairs_);
     program.dispatch((count_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
 }
@@ -171,7 +171,7 @@ void DepthSlabs::update(const DrawOrder& order) {
 }
 
 void DepthSlabs::bind(const gpu::Program& program) const {
-    program.texture("slabs", unit::slabs, bounds_);
+    program.texture("slabs", bounds_);
 }
 
 static constexpr size_t drawBytes = 8 * sizeof(uint32_t);
@@ -198,20 +198,20 @@ void SlabDraws::update(const DrawOrder& order, const gpu::Texture& bounds) {
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
     program_.use();
     order.bind(program_);
-    program_.texture("slabs", unit::slabs, bounds);
+    program_.texture("slabs", bounds);
     program_.set("slabCount", slabs_);
     program_.set("moleculeCount", order.count());
     std::vector<glm::ivec4> streams;
     for (const DrawStream& stream : streams_)
         streams.emplace_back(stream.corners, stream.first, stream.batch, 0);
     program_.set("streams", std::span<const glm::ivec4>(streams));
-    program_.storage("Draws", 0, draws_);
+    program_.storage("Draws", draws_);
     program_.dispatch((slabs_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::command});
 }
 
 void SlabDraws::bind(const gpu::Program& program) const {
-    program.texture("slabDraws", unit::slabDraws, drawTexels_);
+    program.texture("slabDraws", drawTexels_);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws_.id());
 }
 

@@ -68,11 +68,11 @@ void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
     applyBeams(program, eye);
     program.set("crown", glm::vec4(glm::vec3(crown_.center - eye.origin.exact), float(crown_.radius)));
     if (shadows_.near == nullptr) return;
-    program.texture("shadowMap", unit::shadowMap, shadows_.near->depth());
+    program.texture("shadowMap", shadows_.near->depth());
     program.set("toShadow", shadows_.near->toTexture(eye.origin));
     program.set("shadowFilter", shadows_.near->filter());
     if (shadows_.wide == nullptr) return;
-    program.texture("wideShadowMap", unit::wideShadowMap, shadows_.wide->depth());
+    program.texture("wideShadowMap", shadows_.wide->depth());
     program.set("toWideShadow", shadows_.wide->toTexture(eye.origin));
     program.set("wideShadowFilter", shadows_.wide->filter());
 }

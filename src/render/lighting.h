@@ -16,14 +16,6 @@ namespace shoal {
 struct Plan;
 class WaterLight;
 
-// Texture units, one for each sampler of the room.
-namespace unit {
-constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
-              order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12,
-              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16, occlusion = 17,
-              clouds = 18;
-}
-
 struct BoundingSphere {
     glm::dvec3 center{0};
     double radius = 0;  // m; 0: none

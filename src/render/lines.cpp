@@ -122,9 +122,9 @@ void SpringLines::draw(Drawn& group, const StateView& state, const DrawInputs& i
         const bool here = !only || (*only >= first && *only < first + count);
         if (!here) return;
         group.reader.bind(lines, state, part);
-        if (part && group.scaled) lines.texture("constants", unit::constants, part->constant);
+        if (part && group.scaled) lines.texture("constants", part->constant);
         if (state.layers && group.scaled)
-            lines.texture("constants", unit::constants, (*state.layers)[group.reader.index].constants());
+            lines.texture("constants", (*state.layers)[group.reader.index].constants());
         lines.set("firstMolecule", only ? *only - first : 0);
         group.array.bind();
         glDrawArraysInstanced(GL_TRIANGLES, 0, group.corners, only ? 1 : count);

@@ -128,7 +128,7 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
 
 void MoleculeDrawer::setShape(const gpu::Program& program, float pixelsPerMeter) const {
     if (image_) {
-        program.texture("image", unit::image, image_);
+        program.texture("image", image_);
         program.set("alphaCut", float(material_.alphaCut));
     }
     constexpr float atOnce = 1e-6f;  // s

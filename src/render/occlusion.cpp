@@ -40,21 +40,21 @@ void AmbientOcclusion::draw(const Eye& eye, const gpu::Texture& sceneDepth) {
     glDisable(GL_DEPTH_TEST);
     roughTarget_.bind();
     find_.use();
-    find_.texture("sceneDepth", unit::sceneDepth, sceneDepth);
+    find_.texture("sceneDepth", sceneDepth);
     find_.set("nearest", eye.nearest);
     find_.set("tangents", eye.tangents);
     find_.set("reach", glm::vec2(float(reachByHeight), farthest_));
     gpu::drawVertices(3);
     smoothTarget_.bind();
     blur_.use();
-    blur_.texture("occlusion", unit::occlusion, rough_);
+    blur_.texture("occlusion", rough_);
     gpu::drawVertices(3);
 }
 
 void AmbientOcclusion::apply(const gpu::Program& program, const Eye& eye,
                              const gpu::Texture& sceneDepth) const {
-    program.texture("occlusion", unit::occlusion, smooth_);
-    program.texture("sceneDepth", unit::sceneDepth, sceneDepth);
+    program.texture("occlusion", smooth_);
+    program.texture("sceneDepth", sceneDepth);
     program.set("nearest", eye.nearest);
     program.set("occlusionStrength", strength_);
     program.set("ambientLuminance", ambient_);

@@ -152,7 +152,7 @@ void ParticleDrawer::setType(const gpu::Program& program) const {
     }
     if (type_.facing == ParticleFacing::velocity) program.set("stretch", float(type_.stretch));
     if (!type_.image) return;
-    program.texture("image", unit::image, image_);
+    program.texture("image", image_);
     program.set("tileCount", float(image_.layers()));
     program.set("frameRate", float(type_.image->frameRate));
 }
@@ -189,7 +189,7 @@ const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInp
     setType(program);
     if (type_.blend == Blend::none) program.set("leastCover", inputs.multisampled ? 0.02f : 0.5f);
     if (!readsDepth()) return program;
-    program.texture("sceneDepth", unit::sceneDepth, *inputs.sceneDepth);
+    program.texture("sceneDepth", *inputs.sceneDepth);
     program.set("nearest", eye.nearest);
     program.set("perSoftness", float(1 / type_.softness));
     return program;

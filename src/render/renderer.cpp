@@ -200,7 +200,7 @@ void Renderer::drawSky(const Eye& eye) {
     lighting_.applySky(sky_, eye);
     sky_.set("viewToScene", eye.viewToScene);
     sky_.set("tangents", eye.tangents);
-    if (clouds_) sky_.texture("clouds", unit::clouds, clouds_);
+    if (clouds_) sky_.texture("clouds", clouds_);
     glDepthMask(GL_FALSE);
     gpu::drawVertices(3);
     glDepthMask(GL_TRUE);
@@ -239,8 +239,8 @@ void Renderer::clearGround() {
 void Renderer::drawPicture(const gpu::Program& tone, const Eye& eye, double exposure) {
     const auto timer = timers_.time("picture");
     tone.use();
-    tone.texture("light", unit::light, light_);
-    if (beams_) tone.texture("beams", unit::image, beams_.light());
+    tone.texture("light", light_);
+    if (beams_) tone.texture("beams", beams_.light());
     if (occlusion_) occlusion_.apply(tone, eye, sceneDepth_);
     tone.set("exposure", float(exposure));
     gpu::drawVertices(3);

@@ -240,7 +240,7 @@ void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> t
             program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
             program.set("meshScale", 1.0f);
             if (hasHoles(look.material))
-                program.texture("image", unit::image, surface.images[size_t(look.material.colorImage)]);
+                program.texture("image", surface.images[size_t(look.material.colorImage)]);
             if (cutOut(look.material)) program.set("alphaCut", float(look.material.alphaCut));
             if (hasHoles(look.material) || blended(look.material))
                 program.set("meshColor", glm::vec4(look.material.color));
@@ -279,13 +279,13 @@ void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& 
     program.set("metallic", float(material.metallic));
     program.set("detail", surface.detail);
     program.set("stony", int(surface.stony));
-    const auto image = [&](const char* name, int textureUnit, int number) {
-        if (number >= 0) program.texture(name, textureUnit, surface.images[size_t(number)]);
+    const auto image = [&](const char* name, int number) {
+        if (number >= 0) program.texture(name, surface.images[size_t(number)]);
     };
-    image("image", unit::image, material.colorImage);
-    image("normalImage", unit::normalImage, material.normalImage);
-    image("roughnessImage", unit::roughnessImage, material.roughnessImage);
-    image("emissiveImage", unit::emissiveImage, material.emissiveImage);
+    image("image", material.colorImage);
+    image("normalImage", material.normalImage);
+    image("roughnessImage", material.roughnessImage);
+    image("emissiveImage", material.emissiveImage);
     if (material.normalImage >= 0) program.set("normalScale", float(material.normalScale));
     if (cutOut(material)) program.set("alphaCut", float(material.alphaCut));
     const Pose pose = poseOf(surface.path, time);
@@ -346,8 +346,8 @@ void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double
 void SurfaceDrawer::applyGlass(const Look& look, const Eye& eye, const Behind& behind) const {
     const gpu::Program& program = *look.lit;
     program.use();
-    program.texture("lightBehind", unit::light, *behind.light);
-    program.texture("sceneDepth", unit::sceneDepth, *behind.depth);
+    program.texture("lightBehind", *behind.light);
+    program.texture("sceneDepth", *behind.depth);
     program.set("nearest", eye.nearest);
     program.set("viewToScene", eye.viewToScene);
     program.set("tangents", eye.tangents);

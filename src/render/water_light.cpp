@@ -103,7 +103,7 @@ void WaterLight::applyMedium(const gpu::Program& program, const Eye& eye) const 
     program.set("causticsAt",
                 glm::vec4(float(water_.caustics), float(1 / tile()), glm::vec2(place - glm::floor(place))));
     program.set("causticsDepth", float(1.5 * water_.causticsSize));
-    program.texture("caustics", unit::caustics, caustics_);
+    program.texture("caustics", caustics_);
 }
 
 // ---- Beams
@@ -130,7 +130,7 @@ void WaterBeams::draw(const Eye& eye, const Lighting& lighting, const gpu::Textu
     target_.bind();
     program_.use();
     lighting.applyBeams(program_, eye);
-    program_.texture("sceneDepth", unit::sceneDepth, sceneDepth);
+    program_.texture("sceneDepth", sceneDepth);
     program_.set("viewToScene", eye.viewToScene);
     program_.set("tangents", eye.tangents);
     program_.set("nearest", eye.nearest);

@@ -117,7 +117,7 @@ enum class FieldAxes {
     unity,   // left-handed, +Y up: (x, y, z) -> (x, y, -z)
 };
 
-// Which files a grid is read from, and how.
+// Names the files of a grid, and says how they are read.
 struct GridSource {
     std::string file = {};  // as it is written; # stand for the number of a sequence
     std::optional<FileSequence> sequence = {};

@@ -53,7 +53,7 @@ glm::uvec4 pcg4d(glm::uvec4 v) {  // [Jarzynski 2020]
     };
     v = v * 1664525u + 1013904223u;
     mix();
-    v ^= v >> 16u;
+    v = v ^ (v >> 16u);
     mix();
     return v;
 }

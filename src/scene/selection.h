@@ -1,4 +1,4 @@
-// Which vertices and triangles of a model a Selection means.
+// Finds the vertices and triangles of a model that a Selection means.
 #pragma once
 
 #include <string>

@@ -62,15 +62,15 @@ std::vector<ListRange> Births::rangesOf(size_t words) const {
 
 void Births::bindStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {
     const Buffers& own = buffers_[group];
-    const auto bind = [&](const char* block, int binding, const Buffer& bits) {
+    const auto bind = [&](const char* block, const Buffer& bits) {
         constexpr size_t placesOfByte = 8;
         const size_t offset = size_t(part.first) / placesOfByte;  // whole words (GroupBuffers)
         const bool last = part.first + part.count == own.set.places;
-        program.storage(block, binding, bits, offset,
+        program.storage(block, bits, offset,
                         last ? bits.bytes() - offset : size_t(part.count) / placesOfByte);
     };
-    bind("FreeBits", 4, own.free);
-    if (own.died) bind("DiedBits", 5, own.died);
+    bind("FreeBits", own.free);
+    if (own.died) bind("DiedBits", own.died);
     setAge(program, *groups_[group]);
 }
 
@@ -104,26 +104,25 @@ void Births::countPlaces(const Living& living, int scheduled, bool allocates) {
 void Births::bindBirths(const Living& living) const {
     const Buffers& own = buffers_[living.group];
     const Program& program = *own.spawn;
-    program.storage("FreeBits", 4, own.free);
-    program.storage("Control", 6, lists_.control());
-    tables_->bind(program, *plan_, 3);
+    program.storage("FreeBits", own.free);
+    program.storage("Control", lists_.control());
+    tables_->bind(program, *plan_);
 }
 
 void Births::bindSources(const Living& living, const ListRange& deaths, size_t index,
                          const std::vector<GroupBuffers>& state) const {
     const Program& program = *buffers_[living.group].spawn;
-    program.storage("Died", 5, died_, deaths.first * sizeof(uint32_t), deaths.count * sizeof(uint32_t));
+    program.storage("Died", died_, deaths.first * sizeof(uint32_t), deaths.count * sizeof(uint32_t));
     program.set("firstDied", int(deaths.first));
     program.set("diedCount", int(deaths.count));
     std::vector<glm::ivec4> places;
-    int unit = 4;
     for (const DeathRun& run : living.deathRuns) {
         const GroupBuffers& source = state[run.source];
         const bool read = index < source.parts().size();
         const GroupBuffers::Part& part = source.parts()[read ? index : 0];
         places.emplace_back(part.first, read ? part.count : 0, 0, 0);
-        program.texture(concat("sourceStates", run.emitter).c_str(), unit++, source.oldState(part));
-        program.texture(concat("sourceRecords", run.emitter).c_str(), unit++, part.record);
+        program.texture(concat("sourceStates", run.emitter).c_str(), source.oldState(part));
+        program.texture(concat("sourceRecords", run.emitter).c_str(), part.record);
     }
     program.set("sourcePlaces", std::span<const glm::ivec4>(places));
 }
@@ -137,14 +136,14 @@ void Births::dispatchBirths(const Living& living, int born, const GroupBuffers& 
     for (const ListRange& range : own.ranges) {
         if (born >= 0 && range.first >= size_t(born)) break;
         if (living.listed())
-            program.storage("Places", 3, own.places, range.first * sizeof(uint32_t),
+            program.storage("Places", own.places, range.first * sizeof(uint32_t),
                             range.count * sizeof(uint32_t));
         program.set("firstNewborn", int(range.first));
         program.set("newbornCount", int(range.count));
         for (const GroupBuffers::Part& part : state.parts()) {
-            store(program, "NewState", 0, state.currentState(part));
-            store(program, "NewRecords", 1, state.records(part));
-            if (state.hasConstants()) store(program, "NewConstants", 2, state.constants(part));
+            store(program, "NewState", state.currentState(part));
+            store(program, "NewRecords", state.records(part));
+            if (state.hasConstants()) store(program, "NewConstants", state.constants(part));
             program.set("partFirst", part.first);
             program.set("partPlaces", part.count);
             if (living.onGpu())

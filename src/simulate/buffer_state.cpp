@@ -101,8 +101,8 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
     }
 }
 
-void store(const gpu::Program& program, const char* block, int binding, const GroupBuffers::Range& range) {
-    program.storage(block, binding, *range.buffer, range.offset, range.bytes);
+void store(const gpu::Program& program, const char* block, const GroupBuffers::Range& range) {
+    program.storage(block, *range.buffer, range.offset, range.bytes);
 }
 
 template <typename Self>

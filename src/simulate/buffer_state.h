@@ -77,6 +77,6 @@ class GroupBuffers : public PackedState {
 };
 
 // Binds a range where the program's storage block is.
-void store(const gpu::Program& program, const char* block, int binding, const GroupBuffers::Range& range);
+void store(const gpu::Program& program, const char* block, const GroupBuffers::Range& range);
 
 }  // namespace shoal

@@ -20,9 +20,9 @@ class Fragments::Touched : public ContactState {
     }
     void bind(const Program& program, size_t group) override {
         const GroupLayers& layers = path_->state[group];
-        if (program.uses("oldState")) program.texture("oldState", 0, layers.state());
-        if (program.uses("oldRecords")) program.texture("oldRecords", 1, layers.records());
-        if (program.uses("constants")) program.texture("constants", 2, layers.constants());
+        if (program.uses("oldState")) program.texture("oldState", layers.state());
+        if (program.uses("oldRecords")) program.texture("oldRecords", layers.records());
+        if (program.uses("constants")) program.texture("constants", layers.constants());
     }
     void apply(size_t group, const Gains& gains) override {
         GroupLayers& layers = path_->state[group];
@@ -30,7 +30,7 @@ class Fragments::Touched : public ContactState {
         const Program& program = *path_->programs_[group].touched;
         program.use();
         program.set("groupMolecules", path_->plan_->groups[group].count);
-        gains(program, kernel_unit::steering + 1);
+        gains(program);
         path_->draw(program, group, layers.newState(), layers.count());
         layers.flip();
     }
@@ -75,9 +75,9 @@ void Fragments::draw(const Program& program, size_t group, std::span<const Layer
                      int vertices) const {
     if (molecules == 0) return;
     const GroupLayers& layers = state[group];
-    program.texture("oldState", kernel_unit::oldState, layers.state());
-    program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
-    if (layers.hasConstants()) program.texture("constants", kernel_unit::constants, layers.constants());
+    program.texture("oldState", layers.state());
+    program.texture("oldRecords", layers.records());
+    if (layers.hasConstants()) program.texture("constants", layers.constants());
     programs_[group].kernel->bindTables(program);
     for (const LayerDraw& draw : draws) {
         if (program.uses("firstStored")) program.set("firstStored", draw.first);
@@ -96,10 +96,10 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
         kernel.update(frame);
         const Program& program = kernel.useStep(frame);
         if (plan_->groups[g].needs.steers) {
-            program.texture("steering", kernel_unit::steering, state[g].steering());
+            program.texture("steering", state[g].steering());
             program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
         }
-        if (contact_) contact_->bindLoads(program, kernel_unit::loads, g);
+        if (contact_) contact_->bindLoads(program, g);
         const int vertices = lives ? births_->bindStep(program, g) : 3;
         draw(program, g, state[g].newState(), lives ? births_->reach(g) : state[g].count(), vertices);
         state[g].flip();

@@ -6,10 +6,6 @@ namespace shoal {
 
 using gpu::Program;
 
-namespace binding {
-constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
-}
-
 PathLimits limitsOf(const gpu::ContextInfo& info) {
     PathLimits out;
     out.version = concat(info.major, ".", info.minor);
@@ -74,17 +70,17 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
     const GroupPlan& group = plan_->groups[index];
     const GroupBuffers& buffers = state[index];
     const KernelOptions& options = kernels_[index]->options();
-    program.texture("oldState", kernel_unit::oldState, buffers.oldState(part));
-    program.texture("oldRecords", kernel_unit::oldRecords, part.record);
-    if (buffers.hasConstants()) program.texture("constants", kernel_unit::constants, part.constant);
+    program.texture("oldState", buffers.oldState(part));
+    program.texture("oldRecords", part.record);
+    if (buffers.hasConstants()) program.texture("constants", part.constant);
     kernels_[index]->bindTables(program);
     const bool steps = work == KernelOptions::Work::frame;
-    if (contact_ && steps) contact_->bindLoads(program, kernel_unit::loads, index, part);
-    if (group.needs.steers && steps) program.texture("steering", kernel_unit::steering, part.steering);
-    store(program, "NewState", binding::newState, buffers.newState(part));
-    if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));
+    if (contact_ && steps) contact_->bindLoads(program, index, part);
+    if (group.needs.steers && steps) program.texture("steering", part.steering);
+    store(program, "NewState", buffers.newState(part));
+    if (group.needs.records) store(program, "NewRecords", buffers.records(part));
     if (buffers.hasNormals() && (options.normals || !steps))
-        store(program, "NewNormals", binding::newNormals, buffers.normals(part));
+        store(program, "NewNormals", buffers.normals(part));
     const int together = workgroupMolecules(group, options);
     if (births_ && births_->has(index) && steps) {
         births_->bindStep(program, index, part);
@@ -124,7 +120,7 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         kernels_[g]->update(frame);
         const Program& program = kernels_[g]->useStep(frame);
         if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
-        if (alarm_) alarm_->bind(program, binding::alarm);
+        if (alarm_) alarm_->bind(program);
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part, KernelOptions::Work::frame);
         state[g].flip();

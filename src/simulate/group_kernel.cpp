@@ -101,16 +101,16 @@ void GroupKernel::update(const Frame& frame) {
 const Program& GroupKernel::useStep(const Frame& frame) const {
     step_->use();
     setStepUniforms(*step_, *source_.plan, group(), frame);
-    if (factors_) step_->uniformBlock("Factors", 0, factors_);
+    if (factors_) step_->uniformBlock("Factors", factors_);
     return *step_;
 }
 
 void GroupKernel::bindTables(const Program& program) const {
     const Tables& tables = *source_.tables;
-    tables.bind(program, *source_.plan, kernel_unit::samples);
-    if (springs_) program.texture("liveSprings", kernel_unit::springs, springs_);
+    tables.bind(program, *source_.plan);
+    if (springs_) program.texture("liveSprings", springs_);
     if (options_.lanes != Lanes::vertex) return;
-    program.storage("Topology", 6, tables.topologyBuffer);
+    program.storage("Topology", tables.topologyBuffer);
     program.set("topologyBase", group().topologyBase);
 }
 

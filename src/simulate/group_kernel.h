@@ -16,12 +16,6 @@
 
 namespace shoal {
 
-// Where programs of a group find what they read.
-namespace kernel_unit {
-constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, springs = 4, steering = 5,
-              control = 6, loads = 7;
-}
-
 // All kernels of a path borrow these.
 struct KernelSource {
     gpu::Context* context;

@@ -5,13 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include "gpu/buffer.h"
 #include "simulate/fused_kernel.h"
 
 namespace shoal {
 
 using gpu::Barrier;
-using gpu::BufferTexture;
 using gpu::Program;
 using gpu::Texel;
 
@@ -31,11 +29,6 @@ void addCounting(std::vector<std::string>& defines) {
                                    concat("LINE_WORDS ", lineWords)});
 }
 
-size_t wordsOf(Texel texel) {
-    static constexpr size_t words[] = {4, 4, 2, 1};
-    return words[size_t(texel)];
-}
-
 void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
     const size_t most = MoleculeContact::most(info, contact);
     if (size_t(contact.spheres) <= most) return;
@@ -48,7 +41,7 @@ void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
 
 // Words of an entry of the largest array of lists.
 static size_t entryWords(const ContactPlan& contact) {
-    return wordsOf(contact.remembers() ? Texel::float4 : Texel::uint1);
+    return contact.remembers() ? 4 : 1;
 }
 
 // Entries of all lists together.
@@ -73,11 +66,6 @@ size_t MoleculeContact::most(const gpu::ContextInfo& info, const ContactPlan& co
                      size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info), mostOfTable(info)});
 }
 
-MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel, const char* label,
-                              const void* data)
-    : buffer(context, gpu::Buffer::Use::storage, data, texels * wordsOf(texel) * sizeof(uint32_t), label),
-      texture(context, buffer, texel, label) {}
-
 MoleculeContact::MoleculeContact(gpu::Context& context, const Plan& plan, const Tables& tables,
                                  const SimulationOptions& options)
     : ContactPasses(plan, tables, true),
@@ -86,33 +74,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const Plan& plan, const 
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
       listLength_(int(
           std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
-    const auto array = [&](size_t texels, Texel texel, const char* label) {
-        return Array(context, texels, texel, label);
-    };
-    spherePlaces_ = array(padded_, Texel::uint4, "contact places");
-    places_ = array(padded_, Texel::uint4, "contact places in order");
-    motions_ = array(padded_, Texel::uint4, "contact motions");
-    sphereCells_ = array(padded_, Texel::uint4, "contact cells");
-    cells_ = array(padded_, Texel::uint4, "contact cells in order");
-    const size_t cells = size_t(1) << contact_->tableBits;
-    pairs_ = array(padded_, Texel::uint2, "contact keys");
-    if (contact_->settings.search == ContactSearch::staggered)
-        staggered_ = array(padded_, Texel::uint2, "staggered keys");
-    cellStarts_ = array(cells + 1, Texel::uint1, "cells");
-    if (counted_) {
-        arrivals_ = array(padded_, Texel::uint2, "spheres on their way to cells");
-        members_ = array(padded_, Texel::uint1, "spheres of cells");
-    }
-    const auto zeros = [&](size_t words, const char* label) {
-        const std::vector<uint32_t> none(words);
-        return gpu::Buffer(context, gpu::Buffer::Use::storage, std::span<const uint32_t>(none), label);
-    };
-    if (counted_) cellCounts_ = zeros(countWords(cells), "spheres in cells");
-    touching_ = zeros(1 + padded_, "in contact");
-    touchingGroups_ = zeros(3, "workgroups in contact");
-    dropped_ = zeros(1, "contacts left out");
-    if (rests()) markGroups_ = zeros(11, "workgroups of contact marks");
-    makeMemory();
+    makeArrays();
     makeExclusions();
     makeMaterials();
     makePrograms();
@@ -120,49 +82,84 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const Plan& plan, const 
         makeGroup(group);
 }
 
-void MoleculeContact::makeMemory() {
-    // All spheres begin without contacts; what there is of an entry of a list is written before it is read.
-    const auto array = [&](size_t texels, Texel texel, const char* label) {
-        const std::vector<uint32_t> none(texels * wordsOf(texel));
-        return Array(*context_, texels, texel, label, none.data());
+// The arrays of contact: a row each, in which the name is that of the sampler; the storage block begins with
+// a capital. Spheres begin without contacts, so that what there is of them is zero; of entries of lists what
+// there is was written before it is read.
+void MoleculeContact::makeArrays() {
+    enum class Start { undefined, zero, far };
+    const size_t cells = size_t(1) << contact_->tableBits, entries = padded_ * size_t(listLength_);
+    const size_t walls = 2 * size_t(ContactPlan::mostWalls) * padded_;
+    const bool remembers = contact_->remembers(), rest = rests();
+    const bool staggers = contact_->settings.search == ContactSearch::staggered;
+    const auto add = [&](bool needed, Array& array, const char* name, size_t texels, Texel texel,
+                         Start start) {
+        arrays_.add(name, array);
+        if (!needed) return;
+        std::vector<glm::vec4> first;
+        if (start != Start::undefined)
+            first.resize(texels, start == Start::zero ? glm::vec4(0) : glm::vec4(0, 0, 0, 1e30f));
+        array = Array(*context_, texels, texel, concat("contact ", name).c_str(),
+                      first.empty() ? nullptr : first.data());
     };
-    const auto ofEntries = [&](Texel texel, const char* label) {
-        return Array(*context_, padded_ * size_t(listLength_), texel, label);
+    using enum Start;
+    add(true, spherePlaces_, "spherePlaces", padded_, Texel::uint4, undefined);
+    add(true, sphereCells_, "sphereCells", padded_, Texel::uint4, undefined);
+    add(true, motions_, "motions", padded_, Texel::uint4, undefined);
+    add(true, pairs_, "sorted", padded_, Texel::uint2, undefined);
+    add(staggers, staggered_, "staggered", padded_, Texel::uint2, undefined);
+    add(true, cellStarts_, "starts", cells + 1, Texel::uint1, undefined);
+    add(counted_, arrivals_, "arrivals", padded_, Texel::uint2, undefined);
+    add(counted_, members_, "members", padded_, Texel::uint1, undefined);
+    add(true, places_, "places", padded_, Texel::uint4, undefined);
+    add(true, cells_, "cells", padded_, Texel::uint4, undefined);
+    add(true, slots_, "slots", padded_, Texel::uint1, zero);
+    add(true, counts_, "counts", padded_, Texel::uint1, zero);
+    add(true, lists_, "lists", entries, Texel::uint1, undefined);
+    // what one step leaves to the next
+    add(true, known_, "known", padded_, Texel::float4, zero);
+    add(remembers, partners_, "partners", entries, Texel::uint1, undefined);
+    add(remembers, oldPushes_, "oldPushes", entries, Texel::float4, undefined);
+    add(remembers, oldAnchors_, "oldAnchors", entries, Texel::float4, undefined);
+    add(remembers, loads_, "loads", padded_, Texel::float4, zero);
+    add(rest, calm_, "calm", padded_, Texel::float4, zero);
+    // groups that do not collide leave theirs as they are now
+    add(walls_, nearWalls_, "walls", walls, Texel::float4, far);
+    add(walls_, wallPushes_, "wallPushes", walls, Texel::float4, zero);
+    // of the response
+    add(true, totals_[0], "totals", 2 * padded_, Texel::float4, zero);
+    add(true, totals_[1], "totalsBefore", 2 * padded_, Texel::float4, zero);
+    add(true, totals_[2], "totalsNext", 2 * padded_, Texel::float4, zero);
+    add(remembers, anchors_, "anchors", entries, Texel::float4, undefined);
+    add(remembers, normals_, "normals", entries, Texel::float4, undefined);
+    add(remembers, amounts_, "amounts", entries, Texel::float4, undefined);
+    add(remembers, pushes_[0], "pushes", entries, Texel::float4, undefined);
+    add(remembers, pushes_[1], "earlierPushes", entries, Texel::float4, undefined);
+    add(remembers, effectiveCounts_, "effectiveCounts", padded_, Texel::uint1, zero);
+    add(remembers, motionsNow_[0], "motionsNow", 2 * padded_, Texel::float4, zero);
+    add(remembers && !spreads_, motionsNow_[1], "motionsNext", 2 * padded_, Texel::float4, zero);
+    add(spreads_, contactSums_, "contactSums", 2 * padded_, Texel::float4, zero);
+    add(rigid_, bodies_, "bodies", 3 * padded_, Texel::float4, zero);
+    // of rest
+    add(rest, marks_, "marks", padded_, Texel::uint1, zero);
+    add(rest, awakeSlots_, "awakeSlots", padded_, Texel::uint1, zero);
+    add(rest, markedSlots_, "markedSlots", padded_, Texel::uint1, zero);
+    arrays_.add("oldLists", partners_);  // as fragments call them
+    arrays_.add("apart", apart_);
+    arrays_.add("groupsOf", groupsOf_);
+    arrays_.add("materials", materials_);
+
+    const auto words = [&](bool needed, gpu::Buffer& buffer, const char* name, size_t count) {
+        arrays_.add(name, buffer);
+        const std::vector<uint32_t> none(needed ? count : 0);
+        if (needed)
+            buffer = gpu::Buffer(*context_, gpu::Buffer::Use::storage, std::span<const uint32_t>(none),
+                                 concat("contact ", name).c_str());
     };
-    slots_ = array(padded_, Texel::uint1, "slots");
-    counts_ = array(padded_, Texel::uint1, "contacts");
-    lists_ = ofEntries(Texel::uint1, "contact lists");
-    known_ = array(padded_, Texel::float4, "known impulses");
-    for (Array& totals : totals_)
-        totals = array(2 * padded_, Texel::float4, "contact totals");
-    if (!contact_->remembers()) return;
-    partners_ = ofEntries(Texel::uint1, "contact partners");
-    oldPushes_ = ofEntries(Texel::float4, "remembered pushes");
-    oldAnchors_ = ofEntries(Texel::float4, "remembered anchors");
-    anchors_ = ofEntries(Texel::float4, "contact anchors");
-    normals_ = ofEntries(Texel::float4, "contact normals");
-    amounts_ = ofEntries(Texel::float4, "contact amounts");
-    for (Array& pushes : pushes_)
-        pushes = ofEntries(Texel::float4, "contact pushes");
-    loads_ = array(padded_, Texel::float4, "contact loads");
-    effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
-    if (rests()) {
-        calm_ = array(padded_, Texel::float4, "calm places");
-        marks_ = array(padded_, Texel::uint1, "contact marks");
-        awakeSlots_ = array(padded_, Texel::uint1, "awake slots");
-        markedSlots_ = array(padded_, Texel::uint1, "marked slots");
-    }
-    if (walls_) {
-        // groups that do not collide leave theirs as they are now
-        const size_t texels = 2 * ContactPlan::mostWalls * padded_;
-        const std::vector<glm::vec4> far(texels, glm::vec4(0, 0, 0, 1e30f));
-        nearWalls_ = Array(*context_, texels, Texel::float4, "walls", far.data());
-        wallPushes_ = array(texels, Texel::float4, "wall pushes");
-    }
-    if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
-    motionsNow_[0] = array(2 * padded_, Texel::float4, "contact motions now");
-    if (!spreads_) motionsNow_[1] = array(2 * padded_, Texel::float4, "next contact motions");
-    if (spreads_) contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
+    words(counted_, cellCounts_, "cellCounts", countWords(cells));
+    words(true, touching_, "touching", 1 + padded_);
+    words(true, touchingGroups_, "groups", 3);
+    words(true, dropped_, "dropped", 1);
+    words(rest, markGroups_, "markGroups", 11);
 }
 
 void MoleculeContact::makePrograms() {
@@ -271,25 +268,19 @@ size_t MoleculeContact::setSpheres(const Program& program, const SphereRange& ra
     return size_t(range.count);
 }
 
-void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
-                                const GroupBuffers::Part& part) const {
+void MoleculeContact::bindLoads(const Program& program, size_t group, const GroupBuffers::Part& part) const {
     const ContactGroup* contact = contact_->of(group);
     if (!contact || !contact_->remembers()) return;
     program.set("firstSphere", contact->firstSphere + part.first * contact->spheresOf);
-    program.texture("contactLoads", unit, loads_.texture);
+    program.texture("contactLoads", loads_.texture);
     if (contact_->mayRest(plan_->groups[group]))
         program.set("probes", int(groups_[size_t(contact - contact_->groups.data())].probes));
 }
 
-void MoleculeContact::useTouching(const Program& program) const {
-    program.storage("Touching", 5, touching_);
-    program.storage("Groups", 6, touchingGroups_);
-}
-
-void MoleculeContact::useMarks(const Program& program) const {
-    if (!rests()) return;
-    program.storage("Marks", 3, marks_.buffer);
-    program.storage("MarkGroups", 7, markGroups_);
+const Program& MoleculeContact::with(const Program& program) const {
+    program.use();
+    arrays_.bind(program);
+    return program;
 }
 
 void MoleculeContact::begin(const Frame& frame) {
@@ -382,20 +373,7 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 }
 
 size_t MoleculeContact::bytes() const {
-    size_t out = touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
-    const auto add = [&](const Array& array) { out += array.buffer ? array.buffer.bytes() : 0; };
-    for (const Array* array :
-         {&arrivals_,   &cellStarts_, &members_,         &pairs_,       &staggered_, &apart_,
-          &groupsOf_,   &materials_,  &spherePlaces_,    &sphereCells_, &motions_,   &cells_,
-          &places_,     &loads_,      &effectiveCounts_, &contactSums_, &bodies_,    &wallPushes_,
-          &slots_,      &counts_,     &lists_,           &anchors_,     &known_,     &nearWalls_,
-          &partners_,   &oldPushes_,  &oldAnchors_,      &calm_,        &marks_,     &markedSlots_,
-          &awakeSlots_, &normals_,    &amounts_})
-        add(*array);
-    std::for_each(pushes_.begin(), pushes_.end(), add);
-    std::for_each(totals_.begin(), totals_.end(), add);
-    std::for_each(motionsNow_.begin(), motionsNow_.end(), add);
-    return out;
+    return arrays_.bytes();
 }
 
 }  // namespace shoal

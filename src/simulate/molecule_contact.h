@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/buffer.h"
+#include "gpu/arrays.h"
 #include "simulate/buffer_state.h"
 #include "simulate/contact_passes.h"
 #include "sort/radix_sort.h"
@@ -51,7 +51,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Before the step of all groups.
     void begin(const Frame& frame);
     // Binds to the step of a group of the plan what its contacts remember, if it has any.
-    void bindLoads(const gpu::Program& program, int unit, size_t group, const GroupBuffers::Part& part) const;
+    void bindLoads(const gpu::Program& program, size_t group, const GroupBuffers::Part& part) const;
 
     uint32_t dropped() const override;
     int listLength() const override { return listLength_; }
@@ -63,28 +63,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
 
   private:
     using Buffers = const std::vector<GroupBuffers>;
-    // A buffer and how shaders read it.
-    struct Array {
-        gpu::Buffer buffer;
-        gpu::BufferTexture texture;
-        Array() = default;
-        Array(gpu::Context& context, size_t texels, gpu::Texel texel, const char* label,
-              const void* data = nullptr);
-    };
-    // Binds samplers to one unit after another.
-    class Textures {
-      public:
-        explicit Textures(const gpu::Program& program) : program_(&program) { program.use(); }
-        template <typename Texture>
-        Textures& add(const char* name, const Texture& texture) {
-            program_->texture(name, unit_++, texture);
-            return *this;
-        }
-
-      private:
-        const gpu::Program* program_;
-        int unit_ = 0;
-    };
+    using Array = gpu::Array;
     struct GroupPrograms {
         gpu::Program spheres, effectiveSum, spread, apply, rest;
         Array shapes;
@@ -93,7 +72,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
         bool probes = false;
     };
 
-    void makeMemory();
+    void makeArrays();
     void makePrograms();
     void makeGroup(const ContactGroup& group);
     void makeExclusions();
@@ -101,8 +80,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
 
     void buildGrid(const Frame& frame, Buffers& state) override;
     void makeKeys(bool staggered, const Frame& frame, Buffers& state);
-    void useTouching(const gpu::Program& program) const;
-    void useMarks(const gpu::Program& program) const;
+    // Uses a program, with all arrays that it declares but those of a part of the state.
+    const gpu::Program& with(const gpu::Program& program) const;
     void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
     void sortKeys(bool staggered);
     void order(bool staggered);
@@ -114,8 +93,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
         int first = 0, count = 0;
     };
     size_t setSpheres(const gpu::Program& program, const SphereRange& range) const;
-    Textures bindResponse(const gpu::Program& program, const Times& times) const;
-    void bindWalls(const gpu::Program& program, Textures& textures) const;
+    const gpu::Program& withResponse(const gpu::Program& program, const Times& times) const;
     void runNearest(Buffers& state, const Times& times) override;
     void prepare(Buffers& state, const Times& times) override;
     void countEffective(Buffers& state);
@@ -175,26 +153,31 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     bool wakes_ = false;  // all that rests, in this step
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
-    Array arrivals_, members_;       // where they are counted
-    gpu::Buffer cellCounts_;         // shaders/contact/cell_counts.glsl
-    Array pairs_, staggered_, cellStarts_, apart_, groupsOf_, materials_;
-    Array spherePlaces_, motions_, sphereCells_, cells_, places_;
-    gpu::Buffer touching_, touchingGroups_;  // shaders/contact/touching.glsl
-    gpu::Buffer dropped_;                    // contacts that no list had room for, so far
+    gpu::Arrays arrays_;             // all below, by their names in the shaders (makeArrays)
 
+    // Of the grid: made anew in each step.
+    Array spherePlaces_, sphereCells_, motions_;  // shaders/contact/records.glsl
+    Array pairs_, staggered_, cellStarts_;        // keys and spheres, sorted; where each key begins
+    Array arrivals_, members_;                    // where they are counted instead of sorted
+    gpu::Buffer cellCounts_;                      // shaders/contact/cell_counts.glsl
+    Array places_, cells_, slots_;                // in the order of the slots; the slot of each sphere
+    // Of the plan: never changed.
+    Array apart_, groupsOf_, materials_;
     // The last step leaves these to this one, by sphere (shaders/contact/memory.glsl).
     Array partners_, oldPushes_, oldAnchors_, known_, wallPushes_;
     Array loads_;  // m/s^2, and in w what shaders/contact/apply.comp says
     Array calm_;   // shaders/contact/rest.comp
     // Within a step.
-    Array slots_, counts_, lists_, anchors_, nearWalls_;
+    Array counts_, lists_, anchors_, nearWalls_, bodies_;
     Array normals_, amounts_;                 // shaders/contact/constraint.glsl
     Array marks_, markedSlots_, awakeSlots_;  // shaders/contact/marks.glsl
     gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
     std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before
     std::array<Array, 3> totals_;             // in turn: the last stage's, those before, the next
     std::array<Array, 2> motionsNow_;         // in turn: this iteration's, the next's
-    Array effectiveCounts_, contactSums_, bodies_;
+    Array effectiveCounts_, contactSums_;
+    gpu::Buffer touching_, touchingGroups_;  // shaders/contact/touching.glsl
+    gpu::Buffer dropped_;                    // contacts that no list had room for, so far
 };
 
 }  // namespace shoal

@@ -68,18 +68,18 @@ class VertexTexels : public ContactState {
     std::vector<std::string> defines(size_t) const override { return {}; }
     void bind(const Program& program, size_t group) override {
         setGroup(program, plan_->groups[group]);
-        program.texture("positions", 0, state_->position.read(group));
-        program.texture("velocities", 1, state_->velocity.read(group));
-        program.texture("records", 2, state_->record.read(group));
-        program.texture("constants", 3, state_->constant);
+        program.texture("positions", state_->position.read(group));
+        program.texture("velocities", state_->velocity.read(group));
+        program.texture("records", state_->record.read(group));
+        program.texture("constants", state_->constant);
     }
     void apply(size_t group, const Gains& gains) override {
         const TextureLayout& at = plan_->groups[group].texture;
         const Program& program = apply_[group];
         program.use();
         bind(program, group);
-        program.texture("topology", 4, tables_->topology);
-        gains(program, 5);
+        program.texture("topology", tables_->topology);
+        gains(program);
         const gpu::Framebuffer& target =
             state_->target({&state_->position.write(group), &state_->velocity.write(group)});
         target.bind(0, at.firstRow, target.width(), at.rows);
@@ -208,15 +208,15 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     const Program& program = *programs_[index][size_t(kind)];
     program.use();
     setGroup(program, group);
-    program.texture("positions", 0, state.position.read(index));
-    program.texture("velocities", 1, state.velocity.read(index));
-    if (state.acceleration) program.texture("accelerations", 2, state.acceleration.read(index));
-    program.texture("records", 3, state.record.read(index));
-    program.texture("constants", 4, state.constant);
-    program.texture("topology", 5, tables_->topology);
-    tables_->bind(program, *plan_, 6);
-    if (state.normal && program.uses("vertexNormals")) program.texture("vertexNormals", 7, state.normal);
-    if (program.uses("contactLoads")) contact_->bindLoads(program, 15, index);
+    program.texture("positions", state.position.read(index));
+    program.texture("velocities", state.velocity.read(index));
+    if (state.acceleration) program.texture("accelerations", state.acceleration.read(index));
+    program.texture("records", state.record.read(index));
+    program.texture("constants", state.constant);
+    program.texture("topology", tables_->topology);
+    tables_->bind(program, *plan_);
+    if (state.normal && program.uses("vertexNormals")) program.texture("vertexNormals", state.normal);
+    if (program.uses("contactLoads")) contact_->bindLoads(program, index);
     return program;
 }
 
@@ -327,19 +327,19 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     const Texture& velocity = s == 0 ? state.velocity.read(index) : state.stageVelocity[read];
     if (group.needs.directionalDrag) {
         const Program& normals = prepare(PassKind::normals, group, index);
-        normals.texture("positions", 0, position);
+        normals.texture("positions", position);
         normals.set("aheadTime", 0.0f);
         drawState(group, {&state.normal});
     }
     const Program& program = prepare(PassKind::stage, group, index);
     if (group.needs.springs) setSprings(program, group, step, 0);
     if (s == 0) setParameters(program, group, step);
-    program.texture("positions", 0, position);
-    program.texture("velocities", 1, velocity);
-    program.texture("startPositions", 8, state.position.read(index));
-    program.texture("startVelocities", 9, state.velocity.read(index));
-    program.texture("sumVelocities", 10, state.sumVelocity[read]);
-    program.texture("sumAccelerations", 11, state.sumAcceleration[read]);
+    program.texture("positions", position);
+    program.texture("velocities", velocity);
+    program.texture("startPositions", state.position.read(index));
+    program.texture("startVelocities", state.velocity.read(index));
+    program.texture("sumVelocities", state.sumVelocity[read]);
+    program.texture("sumAccelerations", state.sumAcceleration[read]);
     program.set("time", float(step.time - step.frame.time));
     program.set("substep", float(step.h));
     program.set("stage", s);
@@ -363,7 +363,7 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
     if (group.solver == SolverKind::rk4)  // that the last stage has written
-        program.texture("sumAccelerations", 11, state.sumAcceleration[1]);
+        program.texture("sumAccelerations", state.sumAcceleration[1]);
     if (!plan_->colliders.moving.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
     setParameters(program, group, step);

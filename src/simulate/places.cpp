@@ -128,15 +128,15 @@ size_t PlaceLists::bytesOf(size_t places) {
 
 void PlaceLists::setUp(const Program& program, const PlaceSet& set) const {
     program.use();
-    program.storage("Counts", 1, sums_);
-    program.storage("Control", 2, control_);
+    program.storage("Counts", sums_);
+    program.storage("Control", control_);
     program.set("laneCount", lanesOf(size_t(set.places)));
     program.set("placeCount", set.places);
     program.set("controlBase", int(control::of(set.group)));
 }
 
 void PlaceLists::setReach(const Program& program, const PlaceSet& set) const {
-    program.storage("StepGroups", 4, *set.stepGroups);
+    program.storage("StepGroups", *set.stepGroups);
     program.set("stepLanes", set.stepLanes);
     program.set("partPlaces", set.partPlaces);
     program.set("partCount", set.partCount);
@@ -144,10 +144,9 @@ void PlaceLists::setReach(const Program& program, const PlaceSet& set) const {
 
 void PlaceLists::writeList(const Program& program, const PlaceSet& set, const Buffer& bits,
                            const Buffer& list, size_t at, std::span<const ListRange> ranges) const {
-    program.storage("Bits", 0, bits);
+    program.storage("Bits", bits);
     for (const ListRange& range : ranges) {
-        program.storage("List", 3, list, (at + range.first) * sizeof(uint32_t),
-                        range.count * sizeof(uint32_t));
+        program.storage("List", list, (at + range.first) * sizeof(uint32_t), range.count * sizeof(uint32_t));
         program.set("listFirst", int(range.first));
         program.set("listCount", int(range.count));
         program.set("clears", int(&range == &ranges.back()));
@@ -158,8 +157,8 @@ void PlaceLists::writeList(const Program& program, const PlaceSet& set, const Bu
 
 void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
     count_.use();
-    count_.storage("Bits", 0, bits);
-    count_.storage("Counts", 1, sums_);
+    count_.storage("Bits", bits);
+    count_.storage("Counts", sums_);
     count_.set("laneCount", lanesOf(size_t(set.places)));
     count_.set("placeCount", set.places);
     count_.dispatch(groupsOf(set));

@@ -1,4 +1,4 @@
-// Which places of a group with life are free: known on the CPU (allocators stack and heap), or as bits on the
+// The free places of a group with life: known on the CPU (allocators stack and heap), or as bits on the
 // GPU.
 #pragma once
 

@@ -31,23 +31,16 @@ size_t mostOf(const gpu::ContextInfo& info) {
 Schooling::Schooling(gpu::Context& context, const Plan& plan, const Tables& tables)
     : SchoolPasses(context, plan, tables, {}),
       sort_((checkCount(plan.school, mostOf(context.info())), context), size_t(plan.school.entries)) {
-    const auto buffer = [&](size_t words, const char* label) {
-        return gpu::Buffer(context, gpu::Buffer::Use::storage, nullptr, words * 4, label);
-    };
-    const auto read = [&](const gpu::Buffer& from, Texel texel, const char* label) {
-        return gpu::BufferTexture(context, from, texel, label);
+    const auto add = [&](gpu::Array& array, const char* name, size_t texels, Texel texel) {
+        array = gpu::Array(context, texels, texel, concat("school ", name).c_str());
+        arrays_.add(name, array);
     };
     const auto entries = size_t(school_->entries);
-    bodies_ = buffer(size_t(school_->bodyCount) * bodyElements * 4, "school bodies");
-    pairs_ = buffer(entries * 2, "school keys");
-    starts_ = buffer(size_t(school_->keys) + 1, "school cells");
-    places_ = buffer(entries * 4, "school places");
-    velocities_ = buffer(entries * 4, "school velocities");
-    bodiesRead_ = read(bodies_, Texel::float4, "school bodies");
-    pairsRead_ = read(pairs_, Texel::uint2, "school keys");
-    startsRead_ = read(starts_, Texel::uint1, "school cells");
-    placesRead_ = read(places_, Texel::float4, "school places");
-    velocitiesRead_ = read(velocities_, Texel::float4, "school velocities");
+    add(bodies_, "bodies", size_t(school_->bodyCount) * bodyElements, Texel::float4);
+    add(sorted_, "sorted", entries, Texel::uint2);
+    add(starts_, "starts", size_t(school_->keys) + 1, Texel::uint1);
+    add(places_, "places", entries, Texel::float4);
+    add(velocities_, "velocities", entries, Texel::float4);
     makePrograms();
 }
 
@@ -55,10 +48,10 @@ void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
     for (size_t b = 0; b < school_->bodies.size(); ++b) {
         const SchoolBodies& bodies = school_->bodies[b];
         const Program& program = useBody(b);
-        program.storage("Bodies", 0, bodies_);
+        arrays_.bind(program);
         for (const GroupBuffers::Part& part : state[bodies.group].parts()) {
-            program.texture("oldState", 0, state[bodies.group].oldState(part));
-            program.texture("oldRecords", 1, part.record);
+            program.texture("oldState", state[bodies.group].oldState(part));
+            program.texture("oldRecords", part.record);
             program.set("partMolecules", part.count);
             program.set("firstBody", bodies.first + part.first);
             dispatch(program, part.count);
@@ -69,22 +62,17 @@ void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
 
 void Schooling::makeKeys() {
     const Program& program = useKeys();
-    program.texture("bodies", 0, bodiesRead_);
-    program.storage("Pairs", 0, pairs_);
+    arrays_.bind(program);
     dispatch(program, school_->entries);
     settled();
 }
 
 void Schooling::order() {
-    sort_.sort(pairs_, size_t(school_->entries), school_->keyBits());
+    sort_.sort(sorted_.buffer, size_t(school_->entries), school_->keyBits());
     settled();
     const Program& program = useOrder();
-    program.texture("sorted", 0, pairsRead_);
-    program.texture("bodies", 1, bodiesRead_);
+    arrays_.bind(program);
     program.set("keyCount", school_->keys);
-    program.storage("Starts", 0, starts_);
-    program.storage("Places", 1, places_);
-    program.storage("Velocities", 2, velocities_);
     dispatch(program, school_->entries);
     settled();
 }
@@ -92,12 +80,8 @@ void Schooling::order() {
 void Schooling::steer(size_t index, const Frame& frame, const std::vector<GroupBuffers>& state) {
     const SchoolMember& member = school_->members[index];
     const Program& program = useSteer(index, frame);
-    program.texture("bodies", 0, bodiesRead_);
-    program.texture("sorted", 1, pairsRead_);
-    program.texture("starts", 2, startsRead_);
-    program.texture("places", 3, placesRead_);
-    program.texture("velocities", 4, velocitiesRead_);
-    program.storage("Steering", 0, state[member.group].steering());
+    arrays_.bind(program);
+    program.storage("Steering", state[member.group].steering());
     dispatch(program, school_->grids[member.grid].entries);
 }
 

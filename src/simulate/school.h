@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/buffer.h"
+#include "gpu/arrays.h"
 #include "simulate/buffer_state.h"
 #include "simulate/school_passes.h"
 #include "sort/radix_sort.h"
@@ -27,8 +27,8 @@ class Schooling : public SchoolPasses {
     void steer(size_t member, const Frame& frame, const std::vector<GroupBuffers>& state);
 
     RadixSort sort_;
-    gpu::Buffer bodies_, pairs_, starts_, places_, velocities_;
-    gpu::BufferTexture bodiesRead_, pairsRead_, startsRead_, placesRead_, velocitiesRead_;
+    gpu::Array bodies_, sorted_, starts_, places_, velocities_;
+    gpu::Arrays arrays_;  // all of them, by their names in the shaders
 };
 
 }  // namespace shoal

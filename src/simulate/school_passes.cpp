@@ -12,7 +12,6 @@ namespace {
 
 constexpr double endless = 1e9;                          // m
 constexpr double wanderPeriod = 512 * std::numbers::pi;  // s, of shaders/physics/school.glsl
-constexpr int samplesUnit = 6;                           // beside what steering reads
 
 // s: after which all muscles are where they were; without any, a long time.
 double clockPeriodOf(const GroupPlan& group) {
@@ -188,7 +187,7 @@ void SchoolPasses::setRules(size_t index, const Frame& frame) const {
     program.set("walls", glm::vec2(school.walls, school.look));
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, group, frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
-    tables_->bind(program, *plan_, samplesUnit);
+    tables_->bind(program, *plan_);
 }
 
 bool SchoolPasses::change(size_t group, const School& school) {

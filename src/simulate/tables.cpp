@@ -53,13 +53,12 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
     sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
 }
 
-void Tables::bind(const gpu::Program& program, const Plan& plan, int unit) const {
-    if (sampleTexels && program.uses("samples")) program.texture("samples", unit, sampleTexels);
-    if (samples && program.uses("samples")) program.texture("samples", unit, samples);
-    constexpr int firstUnit = 24;  // beyond all others; OpenGL 3.3 has 48
+void Tables::bind(const gpu::Program& program, const Plan& plan) const {
+    if (sampleTexels && program.uses("samples")) program.texture("samples", sampleTexels);
+    if (samples && program.uses("samples")) program.texture("samples", samples);
     for (size_t i = 0; i < noiseTiles.size(); ++i)
         if (program.uses(plan.fields.noiseTiles[i].sampler()))
-            program.texture(plan.fields.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
+            program.texture(plan.fields.noiseTiles[i].sampler(), noiseTiles[i]);
 }
 
 void Tables::updateTopology(const Plan& plan, size_t group) {

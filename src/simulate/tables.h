@@ -24,8 +24,8 @@ struct Tables {
     // Error: more samples than the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form form);
 
-    // Binds the samples, to `unit`, and the tiles that a program reads, which is in use.
-    void bind(const gpu::Program& program, const Plan& plan, int unit) const;
+    // Binds the samples and the tiles that a program reads, which is in use.
+    void bind(const gpu::Program& program, const Plan& plan) const;
     // Takes over the plan's topology of a group from its base on, which has changed in numbers alone. Of
     // buffers.
     void updateTopology(const Plan& plan, size_t group);

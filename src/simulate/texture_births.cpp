@@ -61,7 +61,7 @@ int TextureBirths::bindStep(const Program& program, size_t group) const {
     const Living& living = *groups_[group];
     setAge(program, living);
     if (!living.onGpu()) return 3;
-    program.texture("control", kernel_unit::control, places_.control());
+    program.texture("control", places_.control());
     program.set("controlBase", int(control::of(group)));
     program.set("stateRows", rowsOf(size_t(living.count())));
     return 6;
@@ -109,14 +109,13 @@ int TextureBirths::allocate(const Living& living, const Newborns& newborns, cons
 
 void TextureBirths::bindBirths(const Program& program, const Living& living,
                                const std::vector<GroupLayers>& state) const {
-    if (living.listed()) program.texture("places", 0, own_[living.group].places);
-    program.texture("control", 1, places_.control());
-    if (!living.deathRuns.empty()) program.texture("died", 2, died_);
-    tables_->bind(program, *plan_, 3);
-    int unit = 4;
+    if (living.listed()) program.texture("places", own_[living.group].places);
+    program.texture("control", places_.control());
+    if (!living.deathRuns.empty()) program.texture("died", died_);
+    tables_->bind(program, *plan_);
     for (const DeathRun& run : living.deathRuns) {
-        program.texture(concat("sourceStates", run.emitter).c_str(), unit++, state[run.source].state());
-        program.texture(concat("sourceRecords", run.emitter).c_str(), unit++, state[run.source].records());
+        program.texture(concat("sourceStates", run.emitter).c_str(), state[run.source].state());
+        program.texture(concat("sourceRecords", run.emitter).c_str(), state[run.source].records());
     }
 }
 

@@ -30,6 +30,7 @@ TextureContact::TextureContact(gpu::Context& context, const Plan& plan, const Ta
         staggered_.emplace(context, NetworkSort::Kind::bitonic, size_t(contact_->spheres), 2 << rowBits_,
                            NetworkSort::Ties::byIndex);
     makeTextures(context);
+    nameTextures();
     makeTables(context);
     makePrograms(context);
     for (const ContactGroup& group : contact_->groups)
@@ -90,6 +91,52 @@ void TextureContact::makeTextures(gpu::Context& context) {
     if (!spreads_) return;
     contactSums_ = texture(Format::rgba32f, "contact sums", 2);
     motionsNow_ = texture(Format::rgba32f, "contact motions now", 2);
+}
+
+void TextureContact::nameTextures() {
+    const std::pair<const char*, const Texture*> names[] = {{"spherePlaces", &spherePlaces_},
+                                                            {"sphereMotions", &sphereMotions_},
+                                                            {"sphereCells", &sphereCells_},
+                                                            {"places", &places_},
+                                                            {"motions", &motions_},
+                                                            {"cells", &cells_},
+                                                            {"starts", &startsOf_},
+                                                            {"materials", &materials_},
+                                                            {"apart", &apart_},
+                                                            {"groupsOf", &groupsOf_},
+                                                            {"slots", &slots_[0]},
+                                                            {"oldSlots", &slots_[1]},
+                                                            {"counts", &counts_[0]},
+                                                            {"oldCounts", &counts_[1]},
+                                                            {"lists", &lists_[0]},
+                                                            {"oldLists", &lists_[1]},
+                                                            {"anchors", &anchors_[0]},
+                                                            {"oldAnchors", &anchors_[1]},
+                                                            {"known", &known_[0]},
+                                                            {"oldKnown", &known_[1]},
+                                                            {"walls", &nearWalls_[0]},
+                                                            {"oldWalls", &nearWalls_[1]},
+                                                            {"normals", &normals_},
+                                                            {"amounts", &amounts_},
+                                                            {"pushes", &pushes_[0]},
+                                                            {"oldPushes", &pushes_[0]},
+                                                            {"wallPushes", &wallPushes_[0]},
+                                                            {"oldWallPushes", &wallPushes_[0]},
+                                                            {"totals", &totals_[0]},
+                                                            {"effectiveCounts", &effectiveCounts_},
+                                                            {"contactSums", &contactSums_},
+                                                            {"motionsNow", &motionsNow_},
+                                                            {"bodies", &bodies_},
+                                                            {"gains", &gains_},
+                                                            {"loads", &loads_}};
+    for (const auto& [name, texture] : names)
+        arrays_.add(name, *texture);
+    // which are read under other names
+    for (const size_t i : {1, 2}) {
+        arrays_.add(concat("pushes ", i), pushes_[i]);
+        arrays_.add(concat("wallPushes ", i), wallPushes_[i]);
+        arrays_.add(concat("totals ", i), totals_[i]);
+    }
 }
 
 // A texture of so many texels, by number.
@@ -213,11 +260,18 @@ void TextureContact::drawGroup(const Into& into, size_t group) {
     draw(into, first, end - first);
 }
 
-const Program& TextureContact::useGroup(const Program& program, size_t group) const {
-    const ContactGroup& contact = contact_->groups[group];
+const Program& TextureContact::with(const Program& program) const {
     program.use();
-    program.set("firstSphere", contact.firstSphere);
+    arrays_.bind(program);
+    if (program.uses("sorted")) program.texture("sorted", sort_.pairs());
+    return program;
+}
+
+const Program& TextureContact::withGroup(const Program& program, size_t group) const {
+    const ContactGroup& contact = contact_->groups[group];
+    with(program).set("firstSphere", contact.firstSphere);
     program.set("partSpheres", spheresIn(contact));
+    if (program.uses("shapes")) program.texture("shapes", groups_[group].shapes);
     return program;
 }
 
@@ -226,15 +280,14 @@ void TextureContact::makeWalls(const Frame& frame, ContactState& state) {
         if (!groups_[g].walls) continue;
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
-        const Program& program = useGroup(groups_[g].walls, g);
+        const Program& program = withGroup(groups_[g].walls, g);
         state.bind(program, group.group);
-        program.texture("shapes", 4, groups_[g].shapes);
         const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan, frame);
         program.set("colliderParameters", std::span<const glm::vec4>(parameters));
         program.set("contactStep", float(frame.parameters.frameTime));
         program.set("givenRadius", float(group.radius));
-        tables_->bind(program, *plan_, 3);
-        drawGroup({&nearWalls_[now_]}, g);
+        tables_->bind(program, *plan_);
+        drawGroup({&nearWalls_[0]}, g);
     }
 }
 
@@ -244,13 +297,12 @@ void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
-        const Program& program = useGroup(groups_[g].spheres, g);
+        const Program& program = withGroup(groups_[g].spheres, g);
         state.bind(program, group.group);
         if (state.fused()) {
-            program.texture("shapes", 4, groups_[g].shapes);
             program.set("contactStep", float(frame.parameters.frameTime));
         } else {
-            program.texture("topology", 4, tables_->topology);
+            program.texture("topology", tables_->topology);
             program.set("topologyBase", plan.topologyBase);
             program.set("vertexCount", plan.vertexCount);
         }
@@ -262,10 +314,7 @@ void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
 }
 
 void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
-    keys_.use();
-    keys_.texture("sphereCells", 0, sphereCells_);
-    keys_.texture("spherePlaces", 1, spherePlaces_);
-    keys_.set("count", contact_->spheres);
+    with(keys_).set("count", contact_->spheres);
     keys_.set("keyMask", keyMask());
     keys_.set("cell", float(contact_->cell));
     keys_.set("staggered", int(staggered));
@@ -276,64 +325,33 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
 }
 
 void TextureContact::buildGrid(const Frame& frame, ContactState& state) {
-    now_ = 1 - now_;
+    for (auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
+        std::swap((*sides)[0], (*sides)[1]);
     makeSpheres(frame, state);
     makeWalls(frame, state);
     sortKeys(sort_, false);
     if (staggered_) sortKeys(*staggered_, true);
-    starts_.use();
-    starts_.texture("sorted", 0, sort_.pairs());
-    starts_.set("count", contact_->spheres);
+    with(starts_).set("count", contact_->spheres);
     draw({&startsOf_}, 0, startsOf_.height());
-    order_.use();
-    order_.texture("sorted", 0, sort_.pairs());
-    order_.texture("spherePlaces", 1, spherePlaces_);
-    order_.texture("sphereMotions", 2, sphereMotions_);
-    order_.texture("sphereCells", 3, sphereCells_);
-    order_.set("count", contact_->spheres);
+    with(order_).set("count", contact_->spheres);
     drawAll({&places_, &motions_, &cells_});
-    slot_.use();
-    slot_.texture("sorted", 0, sort_.pairs());
-    slot_.texture("sphereCells", 1, sphereCells_);
-    slot_.texture("starts", 2, startsOf_);
-    slot_.set("count", contact_->spheres);
+    with(slot_).set("count", contact_->spheres);
     slot_.set("keyMask", keyMask());
-    drawAll({&slots_[now_]});
+    drawAll({&slots_[0]});
 }
 
 void TextureContact::search(ContactState&, const Times& times) {
-    find_.use();
-    find_.texture("places", 0, places_);
-    find_.texture("cells", 1, cells_);
-    find_.texture("oldCounts", 2, counts_[1 - now_]);
-    if (contact_->settings.search == ContactSearch::exact) {
-        find_.texture("starts", 3, startsOf_);
-        find_.set("reach", float(contact_->reach));
-    }
-    if (staggered_) {
-        find_.texture("staggered", 4, staggered_->pairs());
-        find_.texture("slots", 5, slots_[now_]);
-    }
-    if (find_.uses("sorted")) find_.texture("sorted", 6, sort_.pairs());
-    if (contact_->remembers()) find_.texture("oldSlots", 9, slots_[1 - now_]);
-    if (contact_->settings.fastest) {
-        find_.texture("motions", 10, motions_);
-        setTimes(find_, times);
-    }
-    if (walls_ && spreads_) find_.texture("walls", 11, nearWalls_[now_]);
-    if (walls_ && rigid_) find_.texture("bodies", 12, bodies_);
-    if (self_) {
-        find_.texture("apart", 7, apart_);
-        find_.texture("groupsOf", 8, groupsOf_);
-    }
-    find_.set("count", contact_->spheres);
+    with(find_).set("count", contact_->spheres);
+    if (contact_->settings.search == ContactSearch::exact) find_.set("reach", float(contact_->reach));
+    if (staggered_) find_.texture("staggered", staggered_->pairs());
+    if (contact_->settings.fastest) setTimes(find_, times);
     find_.set("keyMask", keyMask());
     find_.set("cell", float(contact_->cell));
-    drawAll({&counts_[now_], &lists_[now_]});
+    drawAll({&counts_[0], &lists_[0]});
 }
 
 uint32_t TextureContact::dropped() const {
-    const auto counts = readLayers<glm::uvec2>(counts_[now_], Traffic::Kind::control);
+    const auto counts = readLayers<glm::uvec2>(counts_[0], Traffic::Kind::control);
     uint32_t out = 0;
     for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
         out += counts[slot].y;
@@ -355,22 +373,22 @@ ContactMemory TextureContact::memory() const {
     if (!contact_->remembers()) return {};
     const size_t spheres = size_t(contact_->spheres);
     ContactSlots out;
-    out.stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
-    out.slots = readLayers<uint32_t>(slots_[now_]);
+    out.stride = size_t(counts_[0].width()) * size_t(counts_[0].height());
+    out.slots = readLayers<uint32_t>(slots_[0]);
     out.slots.resize(spheres);
-    const auto counts = readLayers<glm::uvec2>(counts_[now_]);  // by slot
+    const auto counts = readLayers<glm::uvec2>(counts_[0]);  // by slot
     for (const glm::uvec2& count : counts)
         out.counts.push_back(std::min(count.x & contactsMask, uint32_t(longestList)));
     if (std::all_of(counts.begin(), counts.end(), [](const glm::uvec2& count) { return count.x == 0; }))
         return {};
-    out.lists = readLists(lists_[now_]);
+    out.lists = readLists(lists_[0]);
     out.pushes = readLayers<glm::vec4>(pushes_[0]);
-    out.anchors = readLayers<glm::vec4>(anchors_[now_]);
-    out.known = readLayers<glm::vec4>(known_[now_]);
+    out.anchors = readLayers<glm::vec4>(anchors_[0]);
+    out.known = readLayers<glm::vec4>(known_[0]);
     out.loads = readLayers<glm::vec4>(loads_);
     out.loads.resize(spheres);
     if (!walls_) return bySphere(out);
-    out.walls = byElement(readLayers<glm::vec4>(nearWalls_[now_]), out.stride, spheres);
+    out.walls = byElement(readLayers<glm::vec4>(nearWalls_[0]), out.stride, spheres);
     const auto pushes = readLayers<glm::vec4>(wallPushes_[0]);  // by slot
     for (const uint32_t slot : out.slots)
         for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
@@ -384,10 +402,10 @@ void TextureContact::remember(const ContactMemory& memory) {
     if (!contact_->remembers()) return;
     const size_t spheres = size_t(contact_->spheres);
     if (memory.counts.size() != spheres) {
-        writeLayers<glm::uvec2>(counts_[now_], {});
+        writeLayers<glm::uvec2>(counts_[0], {});
         return writeLayers<glm::vec4>(loads_, {});
     }
-    const size_t stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
+    const size_t stride = size_t(counts_[0].width()) * size_t(counts_[0].height());
     const ContactSlots in = bySlot(memory, stride, size_t(longestList));
     std::vector<glm::uvec2> counts;
     for (size_t sphere = 0; sphere < spheres; ++sphere)
@@ -396,43 +414,32 @@ void TextureContact::remember(const ContactMemory& memory) {
     for (size_t e = 0; e < size_t(longestList); ++e)
         for (size_t slot = 0; slot < stride; ++slot)
             lists[e / 4 * stride + slot][int(e % 4)] = in.lists[e * stride + slot];
-    writeLayers(slots_[now_], in.slots);
-    writeLayers(counts_[now_], counts);
-    writeLayers(lists_[now_], lists);
+    writeLayers(slots_[0], in.slots);
+    writeLayers(counts_[0], counts);
+    writeLayers(lists_[0], lists);
     writeLayers(pushes_[0], in.pushes);
-    writeLayers(anchors_[now_], in.anchors);
+    writeLayers(anchors_[0], in.anchors);
     std::vector<glm::vec4> known = in.known;
     for (glm::vec4& of : known)
         of.w = 1;
-    writeLayers(known_[now_], known);
+    writeLayers(known_[0], known);
     writeLayers(loads_, in.loads);
     if (!walls_ || in.walls.empty()) return;
-    writeLayers(nearWalls_[now_], byLayer(in.walls, stride, spheres));
+    writeLayers(nearWalls_[0], byLayer(in.walls, stride, spheres));
     writeLayers(wallPushes_[0], byLayer(in.wallPushes, stride, spheres));
 }
 
 std::vector<std::pair<int, int>> TextureContact::found() const {
     std::vector<uint32_t> counts, spheres;
-    for (const glm::uvec2& count : readLayers<glm::uvec2>(counts_[now_]))
+    for (const glm::uvec2& count : readLayers<glm::uvec2>(counts_[0]))
         counts.push_back(count.x);
     for (const KeyIndex& pair : sort_.download())
         spheres.push_back(pair.index);
-    return pairsOf(counts, readLists(lists_[now_]), counts.size(), spheres);
+    return pairsOf(counts, readLists(lists_[0]), counts.size(), spheres);
 }
 
 size_t TextureContact::bytes() const {
-    size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
-    const auto add = [&](const Texture& texture) { out += texture ? texture.bytes() : 0; };
-    for (const Texture* texture :
-         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_, &startsOf_,
-          &materials_, &apart_, &groupsOf_, &loads_, &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_,
-          &gains_, &normals_, &amounts_})
-        add(*texture);
-    for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
-        std::for_each(sides->begin(), sides->end(), add);
-    for (const auto* sides : {&pushes_, &wallPushes_, &totals_})
-        std::for_each(sides->begin(), sides->end(), add);
-    return out;
+    return 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1) + arrays_.bytes();
 }
 
 }  // namespace shoal

@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/arrays.h"
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
@@ -45,8 +46,8 @@ class ContactState {
     // Binds what it reads then, beside the topology.
     virtual void bind(const gpu::Program& program, size_t group) = 0;
     // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use `gains`
-    // and its first sphere, in texture units from `firstUnit` on.
-    using Gains = std::function<void(const gpu::Program& program, int firstUnit)>;
+    // and its first sphere.
+    using Gains = std::function<void(const gpu::Program& program)>;
     virtual void apply(size_t group, const Gains& bind) = 0;
 };
 
@@ -61,7 +62,7 @@ class TextureContact : public ContactPasses<ContactState> {
     TextureContact(gpu::Context& context, const Plan& plan, const Tables& tables, const ContactState& state);
 
     // Binds to the step of a group of the plan what its contacts remember, if it has any.
-    void bindLoads(const gpu::Program& program, int unit, size_t group) const;
+    void bindLoads(const gpu::Program& program, size_t group) const;
 
     uint32_t dropped() const override;
     int listLength() const override { return longestList; }
@@ -74,6 +75,7 @@ class TextureContact : public ContactPasses<ContactState> {
     using Into = std::vector<gpu::ColorTarget>;
 
     void makeTextures(gpu::Context& context);
+    void nameTextures();
     void makePrograms(gpu::Context& context);
     // Holds what belongs to one group with contact.
     struct OfGroup {
@@ -87,12 +89,13 @@ class TextureContact : public ContactPasses<ContactState> {
 
     void makeSpheres(const Frame& frame, ContactState& state);
     void makeWalls(const Frame& frame, ContactState& state);
-    const gpu::Program& useGroup(const gpu::Program& program, size_t group) const;
     void sortKeys(NetworkSort& sort, bool staggered);
     void buildGrid(const Frame& frame, ContactState& state) override;
     void search(ContactState& state, const Times& times) override;
-    int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
-    void bindGroup(const gpu::Program& program, ContactState& state, size_t group) const;
+    // Use a program, with all textures that it declares but those of the state.
+    const gpu::Program& with(const gpu::Program& program) const;
+    const gpu::Program& withResponse(const gpu::Program& program, const Times& times) const;
+    const gpu::Program& withGroup(const gpu::Program& program, size_t group) const;
     void runNearest(ContactState& state, const Times& times) override;
     void prepare(ContactState& state, const Times& times) override;
     void countEffective();
@@ -116,14 +119,14 @@ class TextureContact : public ContactPasses<ContactState> {
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
     gpu::Texture startsOf_, materials_, apart_, groupsOf_;
-    // The last step leaves these to this one, named as in the shaders; `now_` is this one's.
-    size_t now_ = 0;
+    // This step's, and what the last one has left to it.
     std::array<gpu::Texture, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
     gpu::Texture loads_;
     gpu::Texture normals_, amounts_;  // shaders/contact/constraint.glsl
     // In turn: the last stage's, those before, the next.
     std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
     gpu::Texture effectiveCounts_, contactSums_, motionsNow_, bodies_, gains_;
+    gpu::Arrays arrays_;  // all above, by their names in the shaders
     gpu::Framebuffers targets_;
 };
 

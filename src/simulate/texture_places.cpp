@@ -85,8 +85,8 @@ void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int c
     count_ = count;
     const Program& bits = *findBits_[group];
     bits.use();
-    bits.texture("states", 0, state.state());
-    bits.texture("statesBefore", 1, state.stateBefore());
+    bits.texture("states", state.state());
+    bits.texture("statesBefore", state.stateBefore());
     bits.set("firstPlace", first);
     bits.set("items", count);
     bits.set("placeCount", state.count());
@@ -97,7 +97,7 @@ void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int c
     for (const Level& level : levels_) {
         const Program& sums = below == &bits_ ? sumWords_ : sumLevel_;
         sums.use();
-        sums.texture("below", 0, *below);
+        sums.texture("below", *below);
         sums.set("belowRows", rows);
         if (below != &bits_) rows = partsOf(rows, siblings);
         level.framebuffer.bind(0, 0, siblings, rows);
@@ -107,11 +107,11 @@ void TexturePlaces::sum(size_t group, const GroupLayers& state, int first, int c
 }
 
 void TexturePlaces::bindTree(const Program& program) const {
-    program.texture("control", 0, control());
+    program.texture("control", control());
     program.set("controlBase", int(control::of(group_)));
-    program.texture("bits", 1, bits_);
+    program.texture("bits", bits_);
     for (size_t i = 0; i < levels_.size(); ++i)
-        program.texture(concat("sums", i + 1).c_str(), int(i) + 2, levels_[i].sums);
+        program.texture(concat("sums", i + 1).c_str(), levels_[i].sums);
 }
 
 void TexturePlaces::put(const Program& program, int scheduled, std::span<const glm::ivec4> deaths,

@@ -1,4 +1,4 @@
-// Which places of groups with life are free, and in which one died, on the GPU without compute shaders: as
+// The free places of groups with life, and those in which one died, on the GPU without compute shaders: as
 // bits in a texture, read from the state, and sums over them in the levels of a tree, each a draw
 // (shaders/births/bits.frag, sums.frag). Down the tree a place is found by its rank, so lists of them are
 // in ascending order (list.frag).

@@ -37,6 +37,11 @@ TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tabl
     places_ = texture(Format::rgba32f, school_->entries, "school places");
     velocities_ = texture(Format::rgba32f, school_->entries, "school velocities");
     slotSteering_ = texture(Format::rgba32f, school_->entries, "school steering", steeringElements);
+    arrays_.add("bodies", bodies_);
+    arrays_.add("starts", startsOf_);
+    arrays_.add("places", places_);
+    arrays_.add("velocities", velocities_);
+    arrays_.add("steered", slotSteering_);
     newBodies_ = Framebuffer(context, {{&bodies_}}, nullptr, "school bodies");
     newSlotSteering_ = Framebuffer(context, {{&slotSteering_}}, nullptr, "school steering");
     newStarts_ = Framebuffer(context, {{&startsOf_}}, nullptr, "school cells");
@@ -50,6 +55,11 @@ TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tabl
     steered_ = Program(context, steered);
 }
 
+void TextureSchool::give(const Program& program) const {
+    arrays_.bind(program);
+    if (program.uses("sorted")) program.texture("sorted", sort_.pairs());
+}
+
 void TextureSchool::draw(const Framebuffer& target, int firstRow, int rows) const {
     target.bind(0, firstRow, target.width(), rows);
     gpu::drawVertices(3);
@@ -60,8 +70,8 @@ void TextureSchool::findBodies(const std::vector<GroupLayers>& state) {
         const SchoolBodies& bodies = school_->bodies[b];
         const int count = plan_->groups[bodies.group].count;
         const Program& program = useBody(b);
-        program.texture("oldState", 0, state[bodies.group].state());
-        program.texture("oldRecords", 1, state[bodies.group].records());
+        program.texture("oldState", state[bodies.group].state());
+        program.texture("oldRecords", state[bodies.group].records());
         program.set("groupMolecules", count);
         program.set("firstBody", bodies.first);
         const int first = bodies.first >> rowBits_;
@@ -71,38 +81,30 @@ void TextureSchool::findBodies(const std::vector<GroupLayers>& state) {
 
 void TextureSchool::order() {
     const Program& keys = useKeys();
-    keys.texture("bodies", 0, bodies_);
+    give(keys);
     sort_.drawInto(sort_.target());
     gpu::drawVertices(3);
     sort_.flip();
     sort_.sort();
     starts_.use();
-    starts_.texture("sorted", 0, sort_.pairs());
+    give(starts_);
     starts_.set("count", school_->entries);
     draw(newStarts_, 0, newStarts_.height());
     const Program& order = useOrder();
-    order.texture("sorted", 0, sort_.pairs());
-    order.texture("bodies", 1, bodies_);
+    give(order);
     draw(newOrder_, 0, newOrder_.height());
 }
 
 void TextureSchool::steer(size_t index, const Frame& frame, GroupLayers& state) {
     const Program& program = useSteer(index, frame);
-    program.texture("bodies", 0, bodies_);
-    program.texture("sorted", 1, sort_.pairs());
-    program.texture("starts", 2, startsOf_);
-    program.texture("places", 3, places_);
-    program.texture("velocities", 4, velocities_);
-    program.texture("steering", 5, state.steering());
+    give(program);
+    program.texture("steering", state.steering());
     const SchoolMember& member = school_->members[index];
     const glm::ivec4 range = rangeOf(member.grid);
     const int first = range.x >> rowBits_;
     draw(newSlotSteering_, first, rowsOf(range.x + range.y) - first);
     steered_.use();
-    steered_.texture("bodies", 0, bodies_);
-    steered_.texture("sorted", 1, sort_.pairs());
-    steered_.texture("starts", 2, startsOf_);
-    steered_.texture("steered", 3, slotSteering_);
+    give(steered_);
     steered_.set("grid", range);
     steered_.set("inverseCell", float(1 / cellOf(member.grid)));
     steered_.set("firstBody", school_->bodiesOf(member.group).first);

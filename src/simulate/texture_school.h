@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/buffer.h"
+#include "gpu/arrays.h"
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
 #include "simulate/layer_state.h"
@@ -24,6 +24,7 @@ class TextureSchool : public SchoolPasses {
 
   private:
     int rowsOf(int numbers) const { return (numbers + (1 << rowBits_) - 1) >> rowBits_; }
+    void give(const gpu::Program& program) const;  // all that it declares but the state
     void draw(const gpu::Framebuffer& target, int firstRow, int rows) const;
     void findBodies(const std::vector<GroupLayers>& state);
     void order();
@@ -33,6 +34,7 @@ class TextureSchool : public SchoolPasses {
     NetworkSort sort_;
     gpu::Program starts_, steered_;
     gpu::Texture bodies_, startsOf_, places_, velocities_, slotSteering_;
+    gpu::Arrays arrays_;  // all of them, by their names in the shaders
     gpu::Framebuffer newBodies_, newStarts_, newOrder_, newSlotSteering_;
 };
 

@@ -93,7 +93,7 @@ class RunawayWord {
 
     RunawayWord(gpu::Context& context, Reading reading);
 
-    void bind(const gpu::Program& program, int binding) const { program.storage("Alarm", binding, word_); }
+    void bind(const gpu::Program& program) const { program.storage("Alarm", word_); }
     // After the kernels of a frame, with a barrier for Buffer behind them.
     void endFrame(int number);
     // How many frames after one that ran away have been issued: 0, it was the last one. Nothing: as far as is

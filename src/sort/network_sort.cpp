@@ -127,7 +127,7 @@ void NetworkSort::begin() const {
 
 void NetworkSort::run(const OddEvenPass& pass) {
     targets_[1 - side_].bind(0, 0, sides_[0].width(), rows());
-    program_.texture("pairs", 0, pairs());
+    program_.texture("pairs", pairs());
     program_.set("rowBits", std::countr_zero(unsigned(rowLength_)));
     program_.set("run", pass.run);
     program_.set("reach", pass.distance);
@@ -138,7 +138,7 @@ void NetworkSort::run(const OddEvenPass& pass) {
 void NetworkSort::run(const BitonicPass& pass) {
     targets_[1 - side_].bind(0, 0, sides_[0].width(), rows());
     const int width = sides_[0].width();
-    program_.texture("pairs", 0, pairs());
+    program_.texture("pairs", pairs());
     program_.set("mask", glm::ivec2(pass.mask % width, pass.mask / width));
     program_.set("crossed", int(pass.crossed));
     program_.set("sortedBefore", int(pass.first));

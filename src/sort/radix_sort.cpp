@@ -102,7 +102,7 @@ void RadixSort::setPass(const Program& program, const Pass& pass) const {
     program.use();
     program.set("digits", pass.digits);
     program.set("parts", pass.parts);
-    program.storage("Counts", 0, counts_);
+    program.storage("Counts", counts_);
     if (&program == &scan_) return;
     program.set("count", pass.count);
     program.set("shift", pass.shift);
@@ -115,9 +115,9 @@ void RadixSort::run(const Buffer& from, const Buffer& to, const Pass& pass) {
     if (!tiles_) texels = {*context_, from, "pairs", 0, bytes, gpu::Texel::uint2};
     const auto bindPairs = [&](const Program& program) {
         if (tiles_)
-            program.storage("Pairs", 3, from, 0, bytes);
+            program.storage("Pairs", from, 0, bytes);
         else
-            program.texture("pairs", 0, texels);
+            program.texture("pairs", texels);
     };
     const int groups = tiles_ ? pass.parts : pass.parts / simdLanes;
 
@@ -128,14 +128,14 @@ void RadixSort::run(const Buffer& from, const Buffer& to, const Pass& pass) {
 
     gpu::barrier({Barrier::storage});
     setPass(scan_, pass);
-    scan_.storage("Totals", 1, totals_);
+    scan_.storage("Totals", totals_);
     scan_.dispatch(tiles_ ? pass.digits : dividedUp(size_t(pass.digits), simdLanes));
 
     gpu::barrier({Barrier::storage});
     setPass(scatter_, pass);
     bindPairs(scatter_);
-    scatter_.storage("Totals", 1, totals_);
-    scatter_.storage("Sorted", 2, to, 0, bytes);
+    scatter_.storage("Totals", totals_);
+    scatter_.storage("Sorted", to, 0, bytes);
     scatter_.dispatch(groups);
 }
 

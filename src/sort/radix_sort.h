@@ -34,7 +34,7 @@ class RadixSort {
     // does nothing) are sorted by the low `keyBits` (0 to 32) bits of the key, ascending, equal ones in the
     // order that they had. The result lies in `pairs` again, for texel fetches and storage blocks of whatever
     // follows. What earlier shaders wrote into it is seen. Higher bits of a key are kept, and count for
-    // nothing. Changes the program in use, texture unit 0, and the storage bindings 0 to 3.
+    // nothing. Changes the program in use.
     void sort(gpu::Buffer& pairs, size_t count, int keyBits);
 
     size_t capacity() const { return capacity_; }

@@ -1,5 +1,5 @@
-// Pictures and videos that the user takes of a scene in the window, without the panels, and the line at the bottom that
-// tells of them.
+// Pictures and videos that the user takes of a scene in the window, without the panels, and the line at the
+// bottom that tells of them.
 #pragma once
 
 #include <string>

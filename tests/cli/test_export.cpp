@@ -56,7 +56,7 @@ struct Row {
     glm::dvec3 place, normal;
 };
 
-// Of every frame of a run, in the order of its columns.
+// Returns the rows of each frame of a run, in the order of its columns.
 std::vector<std::vector<Row>> statesOf(const std::string& folder, int frames) {
     std::vector<std::vector<Row>> out;
     for (int frame = 0; frame < frames; ++frame) {

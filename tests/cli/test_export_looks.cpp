@@ -1,4 +1,4 @@
-// What `shoal export` writes of how things look: colours, opacity and size over age and speed, colliders, and
+// The looks that `shoal export` writes: colours, opacity and size over age and speed, colliders, and
 // what it warns of.
 #include <cmath>
 #include <cstring>
@@ -32,7 +32,7 @@ class Glb {
         FAIL("no mesh \"" << name << "\"");
         return json;
     }
-    // Of a mesh's first primitive: a list of numbers a vertex, as many as its type has.
+    // Returns the numbers of each vertex of a mesh's first primitive, as many as their type has.
     std::vector<std::vector<float>> values(const std::string& name, const std::string& attribute) const {
         const JsonValue& attributes = member(member(mesh(name), "primitives").items.at(0), "attributes");
         const JsonValue& accessor =

@@ -44,8 +44,8 @@ std::vector<reference::Sphere> spheresOf(const Plan& plan) {
             const size_t first = size_t(m) * size_t(group.vertexCount);
             const auto vertex = [&](int v) {
                 reference::Sphere sphere;
-                sphere.position =
-                    glm::dvec3(group.start.anchors[size_t(m)]) + glm::dvec3(group.start.positions[first + size_t(v)]);
+                sphere.position = glm::dvec3(group.start.anchors[size_t(m)]) +
+                                  glm::dvec3(group.start.positions[first + size_t(v)]);
                 sphere.velocity = glm::dvec3(group.start.velocities[first + size_t(v)]);
                 sphere.radius = contact.radius * double(group.constants.scales[size_t(m)]);
                 sphere.weight = contact.shapes[size_t(v)].y > 0 ? 0 : double(contact.shapes[size_t(v)].x);

@@ -4,10 +4,12 @@
 
 #include "core/error.h"
 #include "gl/gl_test.h"
+#include "gpu/arrays.h"
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "support/catch.h"
+#include "support/end_of.h"
 #include "support/message_of.h"
 
 using namespace shoal::gpu;
@@ -30,8 +32,8 @@ ProgramOptions computing(const std::string& text) {
 
 const char* const squares =
     "layout(local_size_x = 64) in;\n"
-    "layout(std430, binding = 3) readonly buffer Numbers { float number[]; };\n"
-    "layout(std430, binding = 1) buffer Squares { float square[]; };\n"
+    "layout(std430) readonly buffer Numbers { float number[]; };\n"
+    "layout(std430) buffer Squares { float square[]; };\n"
     "uniform uint count;\n"
     "void main() {\n"
     "    uint i = gl_GlobalInvocationID.x;\n"
@@ -68,8 +70,8 @@ TEST_CASE("a compute program writes a part of a buffer, and nothing beside it", 
     const Program program(testContext(), computing(squares));
     program.use();
     program.set("count", uint32_t(count));
-    program.storage("Numbers", 3, input, 0, bytes);
-    program.storage("Squares", 1, output, before, bytes);
+    program.storage("Numbers", input, 0, bytes);
+    program.storage("Squares", output, before, bytes);
     program.dispatch((count + 63) / 64);
 
     const std::vector<float> all = floats(output, 0, untouched.size());
@@ -87,17 +89,16 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
     const size_t offset = roundUp(16, testContext().info().textureBufferAlignment);
     const size_t bytes = offset + texels * 16 + 160;
     const Buffer values(testContext(), Buffer::Use::storage, nullptr, bytes, "values");
-    const Program fill(testContext(),
-                       computing("layout(local_size_x = 64) in;\n"
-                                 "layout(std430, binding = 0) writeonly buffer Values { float value[]; };\n"
-                                 "uniform int first;\n"
-                                 "void main() {\n"
-                                 "    int i = int(gl_GlobalInvocationID.x);\n"
-                                 "    if (i < value.length()) value[i] = float(i - first);\n"
-                                 "}\n"));
+    const Program fill(testContext(), computing("layout(local_size_x = 64) in;\n"
+                                                "layout(std430) writeonly buffer Values { float value[]; };\n"
+                                                "uniform int first;\n"
+                                                "void main() {\n"
+                                                "    int i = int(gl_GlobalInvocationID.x);\n"
+                                                "    if (i < value.length()) value[i] = float(i - first);\n"
+                                                "}\n"));
     fill.use();
     fill.set("first", int(offset / sizeof(float)));
-    fill.storage("Values", 0, values, 0, bytes);
+    fill.storage("Values", values, 0, bytes);
     fill.dispatch(int(bytes / sizeof(float) + 63) / 64);
     barrier({Barrier::textureFetch});
 
@@ -105,7 +106,7 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
     CHECK(part.texels() == texels);
     const Program sum(testContext(),
                       computing("layout(local_size_x = 64) in;\n"
-                                "layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };\n"
+                                "layout(std430) writeonly buffer Sums { float sums[]; };\n"
                                 "uniform samplerBuffer part;\n"
                                 "void main() {\n"
                                 "    int i = int(gl_GlobalInvocationID.x);\n"
@@ -115,14 +116,70 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
                                 "}\n"));
     const Buffer sums(testContext(), Buffer::Use::storage, nullptr, (texels + 1) * sizeof(float), "sums");
     sum.use();
-    sum.texture("part", 2, part);
-    sum.storage("Sums", 0, sums, 0, sums.bytes());
+    sum.texture("part", part);
+    sum.storage("Sums", sums, 0, sums.bytes());
     sum.dispatch(2);
     const std::vector<float> found = floats(sums, 0, texels + 1);
     for (int i = 0; i < texels; ++i)
         CHECK(found[size_t(i)] == float(1111 * 4 * i + 3210));
     CHECK(found[texels] == -1.0f);  // the texture ends there
     testContext().checkErrors("a buffer texture");
+}
+
+TEST_CASE("a program is given the arrays that it declares", "[compute]") {
+    if (!hasCompute()) return;
+    const Program program(
+        testContext(),
+        computing("layout(local_size_x = 64) in;\n"
+                  "layout(std430) writeonly buffer Sums { float sums[]; };\n"
+                  "layout(std430) buffer Totals { float totals[]; };\n"
+                  "uniform samplerBuffer places;\n"
+                  "uniform usamplerBuffer keys;\n"
+                  "void main() {\n"
+                  "    if (gl_GlobalInvocationID.x > 0u) return;\n"
+                  "    sums[0] = texelFetch(places, 0).y + float(texelFetch(keys, 1).x) + totals[1];\n"
+                  "    totals[1] = 7.0;\n"
+                  "}\n"));
+    const float first[] = {1, 2, 3, 4}, total[] = {10, 20};
+    const uint32_t numbers[] = {100, 300};
+    const Array places(testContext(), 1, Texel::float4, "places", first),
+        keys(testContext(), 2, Texel::uint1, "keys", numbers), sums(testContext(), 4, Texel::float4, "sums"),
+        empty;
+    const Buffer totals(testContext(), Buffer::Use::storage, std::span<const float>(total), "totals");
+    Arrays arrays;
+    arrays.add("places", places);
+    arrays.add("keys", keys);
+    arrays.add("alsoKeys", keys);
+    arrays.add("sums", sums);
+    arrays.add("totals", totals);
+    arrays.add("unread", empty);
+    program.use();
+    arrays.bind(program);
+    program.dispatch(1);
+    CHECK(floats(sums.buffer, 0, 1) == std::vector<float>{322});
+    CHECK(floats(totals, 0, 2) == std::vector<float>{10, 7});
+    CHECK(arrays.bytes() == 16 + 8 + 64 + 8);  // each once
+    testContext().checkErrors("arrays");
+}
+
+TEST_CASE("a program that lacks what it reads ends with its name", "[compute]") {
+    if (!hasCompute()) return;
+    using shoal::test::endOf;
+    const Buffer numbers = storageOf({1, 2, 3, 4}, "numbers"), results = storageOf({0, 0, 0, 0}, "squares");
+    const Program program(testContext(), computing(squares)), other(testContext(), computing(squares));
+    program.use();
+    program.storage("Numbers", numbers);
+    const auto lacking = endOf([] { checkGiven(); });
+    CHECK(lacking.signal == SIGABRT);
+    CHECK_THAT(lacking.said, Catch::Contains("the program in use was not given \"Squares\""));
+    program.storage("Squares", results);
+    CHECK(endOf([] { checkGiven(); }).signal == 0);
+    // what another program has been given since lies in its place
+    other.use();
+    other.storage("Numbers", results);
+    other.storage("Squares", numbers);
+    program.use();
+    CHECK_THAT(endOf([] { checkGiven(); }).said, Catch::Contains("was not given \"Numbers\""));
 }
 
 TEST_CASE("a fragment shader reads a whole buffer as a texture", "[compute]") {
@@ -147,7 +204,7 @@ TEST_CASE("a fragment shader reads a whole buffer as a texture", "[compute]") {
     const Framebuffer framebuffer(testContext(), {&target}, nullptr, "target");
     framebuffer.bind();
     program.use();
-    program.texture("values", 5, texture);
+    program.texture("values", texture);
     drawVertices(3);
     std::vector<float> color(4);
     target.download(Kind::control, 0, 0, 1, 1, color.data(), 16);

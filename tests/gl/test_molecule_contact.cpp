@@ -13,7 +13,7 @@ using glm::vec2;
 
 namespace {
 
-// Those with contact of triangles, and within a molecule.
+// Paths with contact of triangles, and within a molecule.
 std::vector<Path> fusedPaths() {
     std::vector<Path> out = pathsHere();
     out.pop_back();

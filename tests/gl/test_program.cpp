@@ -119,8 +119,8 @@ TEST_CASE("a sampler reads the texture on its unit", "[program]") {
     two.upload(Traffic::Kind::parameters, 0, 0, 1, 1, second, sizeof second);
     const Texture target(testContext(), Format::rgba32f, 2, 2, "target");
     program.use();
-    program.texture("one", 0, one);
-    program.texture("two", 3, two);
+    program.texture("one", one);
+    program.texture("two", two);
     CHECK(draw(program, {&target}) == std::vector<float>{11, 22, 33, 44});
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("a uniform block reads its buffer", "[program]") {
                                                       "void main() { color = types[1]; }\n"));
     const float data[] = {0, 0, 0, 0, 1, 2, 3, 4};
     const Buffer buffer(testContext(), Buffer::Use::uniform, data, sizeof data, "types");
-    program.uniformBlock("Types", 2, buffer);
+    program.uniformBlock("Types", buffer);
     const Texture target(testContext(), Format::rgba32f, 2, 2, "target");
     CHECK(draw(program, {&target}) == std::vector<float>{1, 2, 3, 4});
 }

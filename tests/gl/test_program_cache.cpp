@@ -67,8 +67,8 @@ std::vector<float> draw(const Program& program) {
     program.set("unused", 1.0f);
     const glm::vec4 list[] = {glm::vec4(0), glm::vec4(0.5f, 10, 0, 0)};
     program.set("list", list);
-    program.texture("image", 3, image);
-    program.uniformBlock("Types", 2, buffer);
+    program.texture("image", image);
+    program.uniformBlock("Types", buffer);
     drawVertices(3);
     std::vector<float> color(4);
     target.download(Traffic::Kind::control, 0, 0, 1, 1, color.data(), 16);
@@ -202,7 +202,7 @@ TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
         options.compute = "test.comp";
         options.generated = {{"test.comp",
                               "layout(local_size_x = 4) in;\n"
-                              "layout(std430, binding = 5) buffer Numbers { float number[]; };\n"
+                              "layout(std430) buffer Numbers { float number[]; };\n"
                               "uniform float factor;\n"
                               "void main() { number[gl_GlobalInvocationID.x] *= factor; }\n"}};
         const Program program(testContext(), options);
@@ -211,7 +211,7 @@ TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
         const Buffer buffer(testContext(), Buffer::Use::storage, std::span<const float>(numbers), "numbers");
         program.use();
         program.set("factor", 3.0f);
-        program.storage("Numbers", 5, buffer, 0, 16);
+        program.storage("Numbers", buffer, 0, 16);
         program.dispatch(1);
         std::vector<float> found(4);
         buffer.download(Traffic::Kind::control, 0, found.data(), 16);

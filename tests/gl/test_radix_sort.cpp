@@ -127,7 +127,7 @@ TEST_CASE("radix sort sees what a shader wrote, and moves nothing over the bus",
     options.compute = "fill.comp";
     options.generated = {{"fill.comp",
                           "layout(local_size_x = 64) in;\n"
-                          "layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };\n"
+                          "layout(std430) writeonly buffer Pairs { uvec2 pairs[]; };\n"
                           "void main() {\n"
                           "    uint i = gl_GlobalInvocationID.x;\n"
                           "    pairs[i] = uvec2((i * 7919u) % 4096u, i);\n"
@@ -137,7 +137,7 @@ TEST_CASE("radix sort sees what a shader wrote, and moves nothing over the bus",
     Buffer pairs(testContext(), Buffer::Use::storage, nullptr, 4096 * sizeof(Pair), "pairs");
     const gpu::Traffic before = testContext().traffic();
     fill.use();
-    fill.storage("Pairs", 0, pairs, 0, pairs.bytes());
+    fill.storage("Pairs", pairs, 0, pairs.bytes());
     fill.dispatch(64);
     sort.sort(pairs, 4096, 12);
     const gpu::Traffic moved = testContext().traffic() - before;

@@ -1,5 +1,6 @@
-// The states of all scenes that ship, after a second on each path that takes them, to the bit: what is only moved or
-// renamed changes none of them. tests/gl/state_hashes.txt has them for one driver; elsewhere nothing is compared.
+// The states of all scenes that ship, after a second on each path that takes them, to the bit: what is only
+// moved or renamed changes none of them. tests/gl/state_hashes.txt has them for one driver; elsewhere nothing
+// is compared.
 //
 // SHOAL_UPDATE_HASHES=1 writes that file anew, with the driver here.
 #include <cstdlib>
@@ -24,7 +25,8 @@ std::string driverHere() {
     return concat(info.renderer, "; ", info.version);
 }
 
-// The file's first line names the driver, each other one a scene, a path and a hash: "Leaves, fused = 0123...".
+// The file's first line names the driver, each other one a scene, a path and a hash: "Leaves, fused =
+// 0123...".
 std::map<std::string, std::string> readHashes(std::string& driver) {
     std::map<std::string, std::string> out;
     std::istringstream lines(readFile(file));

@@ -10,7 +10,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-// What the iterations look for, of one contact.
+// The unknowns of one contact.
 struct Answer {
     dvec3 impulse{0};  // N s, on the first sphere
     double apart = 0;  // kg m, by which the two are pushed apart

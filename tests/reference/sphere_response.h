@@ -15,7 +15,7 @@ struct SphereResponse {
     int iterations = 4;
 };
 
-// What contacts leave for the next step.
+// The memory that contacts leave for the next step.
 struct ContactMemory {
     struct Entry {
         glm::dvec3 impulse{0};  // N s, on the first sphere

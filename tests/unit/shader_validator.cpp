@@ -66,11 +66,10 @@ void Validator::addKernel(const Plan& plan, const KernelOptions& options) {
     const gpu::ProgramOptions program = kernelProgram(plan, 0, options);
     for (const std::string& file : {program.compute, program.vertex, program.fragment}) {
         if (file.empty()) continue;
-        for (const char* header : options.targets ? std::vector{gpu::header330(), header300es}
-                                                  : std::vector{gpu::header430()}) {
-            gpu::ShaderSource source =
-                gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, program.defines,
-                                   program.generated, header);
+        for (const char* header :
+             options.targets ? std::vector{gpu::header330(), header300es} : std::vector{gpu::header430()}) {
+            gpu::ShaderSource source = gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file,
+                                                          program.defines, program.generated, header);
             program.rewrite(source);
             add(file, program.defines, header, std::move(source));
         }
@@ -128,7 +127,8 @@ void Validator::check() const {
     }
 }
 
-void Validator::add(const std::string& file, const Defines& defines, const char* header, gpu::ShaderSource source) {
+void Validator::add(const std::string& file, const Defines& defines, const char* header,
+                    gpu::ShaderSource source) {
     if (!seen_.insert(source.text).second) return;
     const std::string stage = file.substr(file.rfind('.'));
     const std::string path = scratch_.write("shader" + std::to_string(seen_.size()) + stage, source.text);

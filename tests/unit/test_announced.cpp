@@ -1,4 +1,4 @@
-// What the text of a model says of its triangles, held against what its reader gives.
+// The triangles that the text of a model announces, held against those that its reader gives.
 #include "core/error.h"
 #include "geometry/announced.h"
 #include "support/catch.h"

@@ -1,4 +1,4 @@
-// What kernels cost: the counts of bytes, operations and fetches.
+// The cost of kernels: the counts of bytes, operations and fetches.
 #include "bench/case.h"
 #include "compile/cost.h"
 #include "support/catch.h"

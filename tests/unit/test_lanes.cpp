@@ -1,4 +1,4 @@
-// Which form of the fused kernel a group takes, and what is refused because it takes too long to compile.
+// The form of the fused kernel that a group takes, and what is refused because it takes too long to compile.
 #include <filesystem>
 
 #include "bench/case.h"

@@ -263,7 +263,8 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     Validator validator;
     validator.generated["generated/body.glsl"] = plan.school.bodies.at(0).text;
     std::vector<glm::vec4> samples;
-    validator.generated["generated/colliders.glsl"] = generateColliders(collidersToValidate(), samples).source;
+    validator.generated["generated/colliders.glsl"] =
+        generateColliders(collidersToValidate(), samples).source;
     const auto addBothForms = [&](const std::string& name, Defines set) {
         set.insert(set.end(), {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "GRIDS 3"});
         Defines compute = set, fragments = set;

@@ -1,4 +1,4 @@
-// What a plan warns of: scenes that are valid and probably not what was meant.
+// Warnings of a plan: scenes that are valid and probably not what was meant.
 #include <algorithm>
 
 #include "compile/plan.h"

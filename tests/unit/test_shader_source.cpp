@@ -195,8 +195,8 @@ TEST_CASE("declared uniforms are found, and nothing else", "[shader]") {
 
 TEST_CASE("declared storage blocks are found, uniforms are not among them", "[shader]") {
     const auto names = declared(
-        "layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };\n"
-        "layout(std430, binding = 1) buffer writeonly Sums { float sums[]; } out1;\n"
+        "layout(std430) readonly buffer Positions { vec4 position[]; };\n"
+        "layout(std430) buffer writeonly Sums { float sums[]; } out1;\n"
         "uniform samplerBuffer part;\n"
         "uniform Types { vec4 types[2]; };\n"
         "float buffered;\n",

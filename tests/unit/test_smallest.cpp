@@ -1,4 +1,4 @@
-// What the window adds to a scene: of each kind the least that a file may say.
+// Parts that the window adds to a scene: of each kind the least that a file may say.
 #include <set>
 
 #include "core/json_build.h"

@@ -1,4 +1,4 @@
-// Of walls that lie on one another: which stay.
+// Coincident walls: which of them stay.
 #include <algorithm>
 #include <array>
 #include <functional>

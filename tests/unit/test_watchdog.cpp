@@ -1,4 +1,4 @@
-// Which states count as having run away, in the shaders and on the CPU.
+// States that count as having run away, in the shaders and on the CPU.
 #include <cmath>
 #include <limits>
 

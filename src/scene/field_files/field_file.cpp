@@ -12,7 +12,7 @@ namespace shoal {
 
 namespace {
 
-// Which of the file's axes each scene axis takes, and whether z runs the other way.
+// Finds the axis of the file that each axis of the scene takes, and whether z runs the other way.
 struct AxisMap {
     glm::ivec3 source{0, 1, 2};
     bool flipZ = false;

@@ -39,7 +39,7 @@ EditorAction drawHead(Editor& editor) {
     return action;
 }
 
-// What changes the shape as a whole, and says why it does not.
+// Draws the buttons that change the whole shape; a change that fails says why.
 void drawReshaping(Editor& editor) {
     const auto button = [&](const char* label, const char* words, const auto& change) {
         const bool pressed = ImGui::Button(label);

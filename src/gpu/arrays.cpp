@@ -1,0 +1,51 @@
+#include "gpu/arrays.h"
+
+#include <cctype>
+#include <set>
+
+namespace shoal::gpu {
+
+static size_t bytesOf(Texel texel) {
+    static constexpr size_t words[] = {4, 4, 2, 1};
+    return words[size_t(texel)] * sizeof(uint32_t);
+}
+
+Array::Array(Context& context, size_t texels, Texel texel, const char* label, const void* data)
+    : buffer(context, Buffer::Use::storage, data, texels * bytesOf(texel), label),
+      texture(context, buffer, texel, label) {}
+
+void Arrays::bind(const Program& program) const {
+    for (const std::string& name : program.samplers()) {
+        const auto found = arrays_.find(name);
+        if (found == arrays_.end()) continue;
+        const Entry& entry = found->second;
+        if (entry.array && entry.array->texture) program.texture(name.c_str(), entry.array->texture);
+        if (entry.texture && *entry.texture) program.texture(name.c_str(), *entry.texture);
+    }
+    std::string name;
+    for (const std::string& block : program.blocks()) {
+        name = block;
+        name[0] = char(std::tolower(name[0]));
+        const auto found = arrays_.find(name);
+        if (found == arrays_.end()) continue;
+        const Entry& entry = found->second;
+        if (entry.array && entry.array->buffer) program.storage(block.c_str(), entry.array->buffer);
+        if (entry.buffer && *entry.buffer) program.storage(block.c_str(), *entry.buffer);
+    }
+}
+
+size_t Arrays::bytes() const {
+    std::set<const void*> counted;
+    size_t out = 0;
+    const auto add = [&](const auto* what) {
+        if (what && *what && counted.insert(what).second) out += what->bytes();
+    };
+    for (const auto& [name, entry] : arrays_) {
+        if (entry.array) add(&entry.array->buffer);
+        add(entry.buffer);
+        add(entry.texture);
+    }
+    return out;
+}
+
+}  // namespace shoal::gpu
