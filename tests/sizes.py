@@ -27,6 +27,10 @@ def files_of(folder, *endings):
     return sorted(f for f in (root / folder).rglob("*") if f.suffix in endings)
 
 
+def shader_files():
+    return files_of("shaders", ".glsl", ".vert", ".frag", ".geom", ".comp")
+
+
 def functions(text):
     """Name and length of each function, by the indentation that the formatter gives."""
     open_blocks, head = [], []
@@ -65,8 +69,7 @@ def names_in(condition_text):
 def read_switches():
     """Each name that a condition of a shader asks for: the files that ask, and the files that set it."""
     readers, setters, conditions = collections.defaultdict(set), collections.defaultdict(set), collections.Counter()
-    shaders = [f for f in files_of("shaders", ".glsl", ".vert", ".frag", ".geom", ".comp")]
-    for file in shaders:
+    for file in shader_files():
         name = str(file.relative_to(root / "shaders"))
         for line in text_of(file).split("\n"):
             if found := condition.match(line):
@@ -114,7 +117,7 @@ def measure():
     readers, _, conditions = read_switches()
     rows.append("shaders | lines | largest file | files | conditions")
     rooms = collections.defaultdict(list)
-    for file in files_of("shaders", ".glsl", ".vert", ".frag", ".geom", ".comp"):
+    for file in shader_files():
         rooms[room_of(file, "shaders")].append(file)
     for room, files in sorted(rooms.items()):
         lines = {f: text_of(f).count("\n") for f in files}
@@ -130,7 +133,7 @@ def measure():
 def circles():
     """Folders of shaders that include one another, each way with a file that does."""
     leads = collections.defaultdict(dict)
-    for file in files_of("shaders", ".glsl", ".vert", ".frag", ".geom", ".comp"):
+    for file in shader_files():
         name = str(file.relative_to(root / "shaders"))
         for included in re.findall(r'^\s*#include "([^"]+)"', text_of(file), re.M):
             here, there = name.split("/")[0], included.split("/")[0]

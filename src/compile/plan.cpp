@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/random.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
@@ -275,7 +276,7 @@ void checkCounts(const Scene& scene) {
 namespace {
 
 // What a scene says of a step, and its groups with their needs, solvers and passes: nothing is placed, and no
-// distance field is read. Error: as checkPlan().
+// distance field is read. Error: as checkPlan() before a baking.
 Plan planGroups(const Scene& scene, const CompileOptions& options) {
     checkCounts(scene);
     for (const Collider& collider : scene.colliders)
@@ -333,7 +334,11 @@ void fill(GroupPlan& group, const Scene& scene, Plan& plan) {
 }  // namespace
 
 void checkPlan(const Scene& scene) {
-    planGroups(scene, {});
+    const bool bakes =
+        std::any_of(scene.colliders.begin(), scene.colliders.end(), [](const Collider& collider) {
+            return std::holds_alternative<DistanceFieldCollider>(*collider.shape);
+        });
+    bakes ? void(planGroups(scene, {})) : checkCounts(scene);  // else compile() follows at once
 }
 
 Plan compile(const Scene& scene, const CompileOptions& options) {

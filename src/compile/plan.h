@@ -143,13 +143,13 @@ struct CompileOptions {
 // Error, located: the scene has more vertices than are counted, or memory has no room for its start.
 void checkCounts(const Scene& scene);
 
-// Error, located: what compile() refuses before it places a molecule or reads a distance field:
-// checkCounts(), colliders that turn too fast, muscles of too many frequencies, and a substep beyond what the
-// solver holds stable (located at the solver, else at the group; says how many substeps would do).
+// Error, located: checkCounts(), and of a scene whose distance fields are to be baked all that compile()
+// refuses without them: colliders that turn too fast, muscles of too many frequencies, a substep beyond what
+// the solver holds stable (located at the solver, else at the group; says how many substeps would do).
 void checkPlan(const Scene& scene);
 
-// Error: what checkScene() and checkPlan() refuse (scene/json/scene_file.h); contact, schools or births that
-// do not fit; or fields or colliders take more uniforms than OpenGL 3.3 promises.
+// Error: what checkScene() refuses (scene/json/scene_file.h), what checkPlan() names, contact, schools or
+// births that do not fit, or fields or colliders take more uniforms than OpenGL 3.3 promises.
 Plan compile(const Scene& scene, const CompileOptions& options = {});
 
 // How many substeps of a frame the solvers need when stiffness, damping and drag are scaled by these factors;

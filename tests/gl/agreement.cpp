@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulate/fused.h"
 #include "support/catch.h"
 
 namespace shoal::test {
@@ -96,6 +97,15 @@ Comparison Agreement::at(int frame) {
         compareGroup(plan_.groups[g], saved.groups[g], first_.snapshot(g), second_.snapshot(g),
                      touching.groups[g], free.groups[g], first_.parameters.frameTime, out);
     return out;
+}
+
+bool takes(const Plan& plan, Path path) {
+    try {
+        choosePath(plan, path, limitsOf(testContext().info()));
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 bool canFuse() {

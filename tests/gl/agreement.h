@@ -42,6 +42,9 @@ class Agreement {
         free_;  // with and without colliders, where there are some; by passes where these have the solver
 };
 
+// Whether the context runs the plan on the path.
+bool takes(const Plan& plan, Path path);
+
 // Whether the context has the fused path; warns where it does not.
 bool canFuse();
 

@@ -37,6 +37,16 @@ inline Emitter burst(int count, double time = 0) {
     return emitter;
 }
 
+// Emits at each death in a group.
+inline Emitter fromDeaths(const std::string& group, int each, double inherit) {
+    Emitter emitter;
+    emitter.from = Emitter::From::death;
+    emitter.group = group;
+    emitter.perDeath = each;
+    emitter.inherit = inherit;
+    return emitter;
+}
+
 inline Scene flowing(Allocator allocator, double rate, const glm::dvec2& life, int capacity) {
     Emitter emitter = steady(rate);
     emitter.speed = {1, 2};

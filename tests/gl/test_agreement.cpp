@@ -13,12 +13,7 @@ using test::FeatureScene;
 namespace {
 
 bool runsInFragments(const Plan& plan) {
-    try {
-        choosePath(plan, Path::fragments, limitsOf(testContext().info()));
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
+    return test::takes(plan, Path::fragments);
 }
 
 // With compute shaders where there are some, else in fragments, if they can.

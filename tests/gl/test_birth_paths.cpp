@@ -41,12 +41,7 @@ Scene rockets(Allocator allocator, int capacity) {
     sparks.life->allocator = Allocator::gpu;
     sparks.life->life = {0.1, 0.3};
     sparks.life->scale = {0.5, 1};
-    Emitter from;
-    from.from = Emitter::From::death;
-    from.group = "rockets";
-    from.perDeath = 3;
-    from.inherit = 0.5;
-    sparks.life->emitters = {from};
+    sparks.life->emitters = {fromDeaths("rockets", 3, 0.5)};
     scene.groups.push_back(sparks);
     setSteps(scene, 1.0 / 60, 4);
     return scene;

@@ -23,12 +23,7 @@ TEST_CASE("from a death others are born, where and as fast as it was", "[births]
     sparks.name = "sparks";
     sparks.life->capacity = 150;
     sparks.life->life = {1, 1};
-    Emitter from;
-    from.from = Emitter::From::death;
-    from.group = "rockets";
-    from.perDeath = 7;
-    from.inherit = 1;
-    sparks.life->emitters = {from};
+    sparks.life->emitters = {fromDeaths("rockets", 7, 1)};
     scene.groups.push_back(sparks);
     setSteps(scene, 1.0 / 60, 8);
     Simulation simulation = simulationOf(scene);
@@ -181,11 +176,7 @@ TEST_CASE("a group in parts spawns and loses the same molecules as one that is w
         scene.groups[0].place.box = {{-1, 0, -1}, {1, 1, 1}};
         // as many are born anew from deaths in each part, and some without one
         scene.groups[0].name = "source";
-        Emitter fed;
-        fed.from = Emitter::From::death;
-        fed.group = "source";
-        fed.inherit = 0.5;
-        fed.perDeath = 2;
+        Emitter fed = fromDeaths("source", 2, 0.5);
         fed.speed = {1, 1};
         fed.spread = 1;
         Group sparks = emitting(fed, 3000, {0.02, 0.05}).groups[0];

@@ -10,7 +10,6 @@
 #include "core/file.h"
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
-#include "simulate/fused.h"
 #include "support/catch.h"
 
 namespace shoal {
@@ -39,24 +38,13 @@ std::map<std::string, std::string> readHashes(std::string& driver) {
     return out;
 }
 
-std::vector<Path> pathsOf(const Plan& plan) {
-    std::vector<Path> out;
-    for (const Path path : {Path::fused, Path::fragments, Path::pingPong}) {
-        try {
-            choosePath(plan, path, limitsOf(testContext().info()));
-            out.push_back(path);
-        } catch (const Error&) {
-        }
-    }
-    return out;
-}
-
 std::map<std::string, std::string> hashesHere() {
     std::map<std::string, std::string> out;
     for (const bool fusedOnly : {false, true}) {
         for (const test::FeatureScene& one : test::shippedScenes(24, fusedOnly)) {
             const Plan plan = compile(one.scene);
-            for (const Path path : pathsOf(plan)) {
+            for (const Path path : {Path::fused, Path::fragments, Path::pingPong}) {
+                if (!test::takes(plan, path)) continue;
                 Simulation simulation(testContext(), plan, {.drawn = false, .path = path});
                 test::run(simulation, hashedFrames);
                 const std::string hash =
