@@ -11,7 +11,7 @@ layout(std430) writeonly buffer Sorted { uvec2 sorted[]; };
 layout(std430) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430) writeonly buffer Cells { uvec4 newCells[]; };
 #else
-#include "sort/starts.glsl"
+#include "contact/old_starts.glsl"
 
 uniform int keyMask;
 

@@ -7,8 +7,8 @@ ivec2 runOf(ivec4 grid, ivec3 cell)
     int from = (cellKey(cell, grid.w) - 1) & mask;
     int to = from + 3;
     bool over = to > grid.w;
-    int first = int(fetch(starts, grid.z + from).x);
-    int last = int(fetch(starts, grid.z + (over ? to - grid.w : to)).x);
+    int first = int(startsAt(grid.z + from));
+    int last = int(startsAt(grid.z + (over ? to - grid.w : to)));
     return ivec2(first, over ? last + grid.y : last) - grid.x;
 }
 
@@ -38,13 +38,13 @@ Others lookAround(vec3 place, vec3 forward, int slot)
         ivec2 run = runOf(grids[0], row);
         for (int i = run.x; i < run.y; ++i) {
             int at = grids[0].x + (i < grids[0].y ? i : i - grids[0].y);
-            vec3 other = fetch(places, at).xyz;
+            vec3 other = placesAt(at).xyz;
             vec3 d = other - place;
             bool met = dot(d, d) < radius * radius && at != slot && cellOf(other, inverseCell).yz == row.yz &&
                        isSeen(d, forward, blind);
             float share = met ? 1.0 : 0.0;
             sum.apart -= awayFrom(d, keep) * share;
-            sum.velocity += fetch(velocities, at) * share;
+            sum.velocity += velocitiesAt(at) * share;
             sum.place += met ? d : vec3(0.0);
             sum.count += share;
         }
@@ -70,7 +70,7 @@ vec3 meetTargets(vec3 place)
             int stride = 1 + (run.y - run.x) / mostOfRun;
             for (int i = run.x; i < run.y; i += stride) {
                 int at = grids[t].x + (i < grids[t].y ? i : i - grids[t].y);
-                vec3 other = fetch(places, at).xyz;
+                vec3 other = placesAt(at).xyz;
                 vec3 d = other - place;
                 bool met = dot(d, d) < radius * radius && cellOf(other, gridRules[t].x).yz == row.yz;
                 float share = met ? float(stride) : 0.0;

@@ -1,14 +1,12 @@
 // Steers one member of a school: the others, enemies, walls and its own habits give one acceleration, from which the
 // motion of its body follows.
-#include "school/bodies.glsl"
 #include "school/grid.glsl"
 #include "physics/school.glsl"
 #include "physics/random.glsl"
 
-uniform UINTS starts;
-uniform FLOATS places;      // in the order of the grids: xyz place, w not 0: lives
-uniform FLOATS velocities;  // in the same: xyz velocity, w speed ahead, m/s
-uniform int firstBody;      // of the group
+#pragma reads bodies starts places velocities
+
+uniform int firstBody;  // of the group
 
 uniform ivec4 grids[1 + TARGETS];     // first slot, slots, first key, keys; of its own, then of its targets
 uniform vec4 gridRules[1 + TARGETS];  // 1 / cell; radius, m; strength, m/s^2, below 0 where they are fled from
@@ -64,10 +62,10 @@ vec3 fromWalls(vec3 place, vec3 velocity)
 // `slot`: its own, in its grid; `earlier`: how it steered before. Sets what fused/steering.glsl reads.
 void steer(int body, int slot, vec4 earlier, out vec4 steering[STEERING_ELEMENTS])
 {
-    vec4 place = bodyElement(body, 0);
-    vec4 moves = bodyElement(body, 1);
-    vec4 ahead = bodyElement(body, 2);
-    vec4 above = bodyElement(body, 3);
+    vec4 place = bodiesAt(body, 0);
+    vec4 moves = bodiesAt(body, 1);
+    vec4 ahead = bodiesAt(body, 2);
+    vec4 above = bodiesAt(body, 3);
     vec3 velocity = moves.xyz;
     vec3 forward = ahead.xyz;
     vec3 upper = above.xyz;

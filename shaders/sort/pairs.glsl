@@ -1,5 +1,7 @@
 // Keys and numbers of what is sorted, as the bitonic sort has them (src/sort/network_sort.h): two pairs a texel, in rows of the
 // same 2^ROW_BITS texels as everything else. `count`: of all.
+#include "state/numbered.glsl"
+
 uvec2 pairAt(usampler2D pairs, int i)
 {
     uvec4 two = fetch(pairs, i >> 1);

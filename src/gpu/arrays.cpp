@@ -1,49 +1,249 @@
 #include "gpu/arrays.h"
 
+#include <algorithm>
 #include <cctype>
-#include <set>
+#include <utility>
+
+#include "core/contract.h"
 
 namespace shoal::gpu {
 
-static size_t bytesOf(Texel texel) {
+namespace {
+
+size_t bytesOf(Texel texel) {
     static constexpr size_t words[] = {4, 4, 2, 1};
     return words[size_t(texel)] * sizeof(uint32_t);
 }
+
+Format formatOf(const ArrayRow& row) {
+    if (row.packed > 1) return Format::rgba32ui;
+    static constexpr Format formats[] = {Format::rgba32f, Format::rgba32ui, Format::rg32ui, Format::r32ui};
+    return formats[size_t(row.texel)];
+}
+
+// The array that a storage block holds.
+std::string arrayOf(std::string block) {
+    block[0] = char(std::tolower(static_cast<unsigned char>(block[0])));
+    return block;
+}
+
+// Whether what a scene holds is what a row needs.
+bool isNeeded(const ArrayRow& row, const std::set<std::string>& holds) {
+    return std::all_of(row.when.begin(), row.when.end(), [&](const std::string& word) {
+        return word[0] == '!' ? !holds.contains(word.substr(1)) : holds.contains(word);
+    });
+}
+
+// The bytes that an array of so many texels begins with; none where nobody reads what nobody wrote.
+std::vector<std::byte> beginning(const ArrayRow& row, size_t bytes) {
+    if (row.start == ArrayRow::Start::undefined) return {};
+    std::vector<std::byte> out(bytes);
+    if (row.start == ArrayRow::Start::zero) return out;
+    const glm::vec4 far(0, 0, 0, 1e30f);
+    for (size_t i = 0; i + sizeof far <= bytes; i += sizeof far)
+        std::copy_n(reinterpret_cast<const std::byte*>(&far), sizeof far, out.begin() + ptrdiff_t(i));
+    return out;
+}
+
+}  // namespace
 
 Array::Array(Context& context, size_t texels, Texel texel, const char* label, const void* data)
     : buffer(context, Buffer::Use::storage, data, texels * bytesOf(texel), label),
       texture(context, buffer, texel, label) {}
 
-void Arrays::bind(const Program& program) const {
-    for (const std::string& name : program.samplers()) {
-        const auto found = arrays_.find(name);
-        if (found == arrays_.end()) continue;
-        const Entry& entry = found->second;
-        if (entry.array && entry.array->texture) program.texture(name.c_str(), entry.array->texture);
-        if (entry.texture && *entry.texture) program.texture(name.c_str(), *entry.texture);
-    }
-    std::string name;
-    for (const std::string& block : program.blocks()) {
-        name = block;
-        name[0] = char(std::tolower(name[0]));
-        const auto found = arrays_.find(name);
-        if (found == arrays_.end()) continue;
-        const Entry& entry = found->second;
-        if (entry.array && entry.array->buffer) program.storage(block.c_str(), entry.array->buffer);
-        if (entry.buffer && *entry.buffer) program.storage(block.c_str(), *entry.buffer);
+Arrays::Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes,
+               const std::set<std::string>& holds, const std::string& label)
+    : context_(&context), table_(&table), sizes_(sizes), label_(label), framebuffers_(context) {
+    for (const auto& [name, row] : table.rows()) {
+        Entry& entry = arrays_[name];
+        entry.row = &row;
+        if (row.index == "given" || !isNeeded(row, holds)) continue;
+        size_t elements = row.more;
+        if (row.index.empty()) {
+            ++elements;
+        } else {
+            EXPECTS(sizes.of.contains(row.index) && "how many there are is known");
+            elements += sizes.of.at(row.index);
+        }
+        if (table.form() == ArrayTable::Form::textures)
+            makeTexture(entry, elements, nullptr);
+        else
+            makeBuffer(entry, elements * (row.ofList ? sizes.list : size_t(row.count)), nullptr);
     }
 }
 
-size_t Arrays::bytes() const {
-    std::set<const void*> counted;
-    size_t out = 0;
-    const auto add = [&](const auto* what) {
-        if (what && *what && counted.insert(what).second) out += what->bytes();
+void Arrays::makeBuffer(Entry& entry, size_t values, const void* data) {
+    const ArrayRow& row = *entry.row;
+    const std::string label = concat(label_, " ", row.name);
+    const std::vector<std::byte> first =
+        data ? std::vector<std::byte>() : beginning(row, values * bytesOf(row.texel));
+    if (!first.empty()) data = first.data();
+    if (row.isRecord)
+        entry.array.buffer =
+            Buffer(*context_, Buffer::Use::storage, data, values * sizeof(uint32_t), label.c_str());
+    else
+        entry.array = Array(*context_, values, row.texel, label.c_str(), data);
+}
+
+void Arrays::makeTexture(Entry& entry, size_t elements, const void* data) {
+    const ArrayRow& row = *entry.row;
+    const int width = 1 << sizes_.rowBits;
+    const size_t texels = row.packed == 2 ? (elements + 1) / 2 : elements;
+    const int rows = int(std::max<size_t>(1, (texels + size_t(width) - 1) >> sizes_.rowBits));
+    const size_t perList = row.ofList ? sizes_.list / size_t(row.packed) : size_t(row.count);
+    const int layers = row.ofList || row.count > 1 ? int(perList) : 0;
+    entry.texture =
+        Texture(*context_, formatOf(row), width, rows, concat(label_, " ", row.name).c_str(), layers);
+    const size_t layerBytes = size_t(width) * size_t(rows) * texelBytes(formatOf(row));
+    std::vector<std::byte> first = beginning(row, layerBytes);
+    if (data) {
+        first.resize(layerBytes);
+        std::copy_n(static_cast<const std::byte*>(data), elements * texelBytes(formatOf(row)), first.begin());
+    }
+    for (int layer = 0; !first.empty() && layer < std::max(layers, 1); ++layer)
+        entry.texture.upload(Traffic::Kind::parameters, 0, 0, width, rows, first.data(), first.size(), layer);
+}
+
+void Arrays::give(const std::string& name, const void* data, size_t values) {
+    Entry& entry = at(name);
+    if (table_->form() == ArrayTable::Form::textures)
+        makeTexture(entry, values, data);
+    else
+        makeBuffer(entry, values, data);
+}
+
+const Arrays::Entry* Arrays::find(std::string_view name) const {
+    const auto alias = aliases_.find(name);
+    const auto found = arrays_.find(alias == aliases_.end() ? name : std::string_view(alias->second));
+    return found == arrays_.end() ? nullptr : &found->second;
+}
+
+const Arrays::Entry& Arrays::at(const std::string& name) const {
+    const Entry* found = find(name);
+    EXPECTS(found && "the table has an array of that name");
+    return *found;
+}
+
+bool Arrays::has(const std::string& name) const {
+    const Entry& entry = at(name);
+    return entry.array.buffer || entry.texture || entry.lent;
+}
+
+void Arrays::swap(const std::string& a, const std::string& b) {
+    Entry &first = at(a), &second = at(b);
+    std::swap(first.array, second.array);
+    std::swap(first.texture, second.texture);
+}
+
+void Arrays::rotate(const std::vector<std::string>& names) {
+    for (size_t i = names.size() - 1; i > 0; --i)
+        swap(names[i], names[i - 1]);
+}
+
+const Arrays::Uses& Arrays::usesOf(const Program& program) const {
+    const auto known = uses_.find(program.id());
+    if (known != uses_.end()) return known->second;
+    Uses& out = uses_[program.id()];
+    for (const std::string& name : program.samplers())
+        if (const Entry* entry = find(name)) out.samplers.push_back({&name, entry, true});
+    for (const std::string& block : program.blocks()) {
+        const Entry* entry = find(arrayOf(block));
+        if (!entry) continue;
+        const std::vector<std::string>& updated = program.updated();
+        const bool isUpdated = std::find(updated.begin(), updated.end(), entry->row->name) != updated.end();
+        out.blocks.push_back({&block, entry, entry->row->isRecord || isUpdated});
+    }
+    return out;
+}
+
+const Program& Arrays::with(const Program& program) const {
+    program.use();
+    const Uses& uses = usesOf(program);
+    for (const auto& [name, entry, isRead] : uses.samplers) {
+        if (entry->array.texture) program.texture(name->c_str(), entry->array.texture);
+        const Texture& texture = entry->lent ? *entry->lent : entry->texture;
+        if (texture) program.texture(name->c_str(), texture);
+    }
+    for (const auto& [block, entry, isRead] : uses.blocks)
+        if (entry->array.buffer) program.storage(block->c_str(), entry->array.buffer);
+    return program;
+}
+
+std::vector<ColorTarget> Arrays::targets(const Program& program, int firstEntry) const {
+    std::vector<ColorTarget> out;
+    size_t lists = 0;
+    const auto isList = [&](const std::string& name) {
+        return at(name).row->ofList && at(name).row->packed == 1;
     };
+    for (const std::string& name : program.written())
+        lists += size_t(isList(name));
+    for (const std::string& name : program.written()) {
+        const Texture& texture = at(name).texture;
+        EXPECTS(texture && "what the pass draws into was made");
+        if (!isList(name)) {
+            out.emplace_back(&texture);
+            continue;
+        }
+        for (int e = 0; e < ArrayDeclarations::drawBuffers / int(lists); ++e)
+            out.emplace_back(&texture, firstEntry + e);
+    }
+    return out;
+}
+
+// Waits for what the program reads, and for those who read what it writes.
+void Arrays::order(const Program& program) {
+    const Uses& uses = usesOf(program);
+    const auto among = [](const std::vector<GLuint>& buffers, const Uses::Use& use) {
+        return std::find(buffers.begin(), buffers.end(), use.entry->array.buffer.id()) != buffers.end();
+    };
+    bool waits = false;
+    for (const Uses::Use& use : uses.samplers)
+        waits = waits || among(written_, use);
+    for (const Uses::Use& use : uses.blocks)
+        waits = waits || among(read_, use) || (use.isRead && among(written_, use));
+    if (waits) settle();
+    for (const Uses::Use& use : uses.samplers)
+        read_.push_back(use.entry->array.buffer.id());
+    for (const Uses::Use& use : uses.blocks)
+        written_.push_back(use.entry->array.buffer.id());
+}
+
+void Arrays::settle() {
+    if (table_->form() == ArrayTable::Form::textures) return;
+    barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
+    written_.clear();
+    read_.clear();
+}
+
+void Arrays::run(const Program& program, int firstNumber, int numbers, int firstEntry) {
+    ++dispatches_;
+    program.set("numbers", numbers);
+    if (table_->form() == ArrayTable::Form::buffers) {
+        order(program);
+        constexpr int lanes = 64;  // of a workgroup, as the shaders say
+        program.dispatch((numbers + lanes - 1) / lanes);
+        return;
+    }
+    program.set("firstNumber", firstNumber);
+    const Framebuffer& target = framebuffers_.into(targets(program, firstEntry));
+    const int first = firstNumber >> sizes_.rowBits,
+              end = ((firstNumber + numbers - 1) >> sizes_.rowBits) + 1;
+    target.bind(0, first, target.width(), end - first);
+    drawVertices(3);
+}
+
+void Arrays::runIndirect(const Program& program, const std::string& record, size_t offset) {
+    ++dispatches_;
+    if (std::find(written_.begin(), written_.end(), buffer(record).id()) != written_.end()) settle();
+    order(program);
+    program.dispatchIndirect(buffer(record), offset);
+}
+
+size_t Arrays::bytes() const {
+    size_t out = 0;
     for (const auto& [name, entry] : arrays_) {
-        if (entry.array) add(&entry.array->buffer);
-        add(entry.buffer);
-        add(entry.texture);
+        if (entry.array.buffer) out += entry.array.buffer.bytes();
+        if (entry.texture) out += entry.texture.bytes();
     }
     return out;
 }

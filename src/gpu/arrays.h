@@ -1,10 +1,14 @@
-// The arrays of a subsystem by the names that shaders know them by.
+// The arrays of a subsystem, made from its table and found by their names, and its passes over them.
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "gpu/array_table.h"
 #include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 
@@ -20,27 +24,90 @@ struct Array {
     Array(Context& context, size_t texels, Texel texel, const char* label, const void* data = nullptr);
 };
 
-// A sampler `places` reads the array `places`, and a storage block `Places` holds it. Borrows what is added:
-// its content may be exchanged, but it stays where it is. What is still empty when a program is bound is not
-// there for it.
+// How many elements there are of what.
+struct ArraySizes {
+    std::map<std::string, size_t, std::less<>> of;
+    size_t list = 0;  // entries of a list
+    int rowBits = 0;  // textures have rows of 2^rowBits texels
+};
+
+// A program is given what it declares, by name: a sampler `places` reads the array `places`, and a storage
+// block `Places` holds it.
 class Arrays {
   public:
-    void add(const std::string& name, const Array& array) { arrays_[name].array = &array; }
-    void add(const std::string& name, const Buffer& buffer) { arrays_[name].buffer = &buffer; }
-    void add(const std::string& name, const Texture& texture) { arrays_[name].texture = &texture; }
+    // Makes the rows that `holds` needs: of it, what `when` names. `label`: goes before their names. Borrows
+    // the table. Error: out of memory.
+    Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes,
+           const std::set<std::string>& holds, const std::string& label);
 
-    // Gives a program in use all of them that it declares. What it declares beside them is for the caller to
-    // give.
-    void bind(const Program& program) const;
+    // Makes an array whose content the caller has, of so many values.
+    void give(const std::string& name, const void* data, size_t values);
+    // Another owner's, for as long as this is used.
+    void lend(const std::string& name, const Texture& texture) { at(name).lent = &texture; }
+    // `name` is also known as `other`.
+    void alias(const std::string& other, const std::string& name) { aliases_[other] = name; }
+    // Contents change places: what one was the other is.
+    void swap(const std::string& a, const std::string& b);
+    // The first is what the last was, and the others what was before them.
+    void rotate(const std::vector<std::string>& names);
+
+    bool has(const std::string& name) const;
+    Buffer& buffer(const std::string& name) { return at(name).array.buffer; }
+    const Buffer& buffer(const std::string& name) const { return at(name).array.buffer; }
+    const BufferTexture& view(const std::string& name) const { return at(name).array.texture; }
+    Texture& texture(const std::string& name) { return at(name).texture; }
+    const Texture& texture(const std::string& name) const { return at(name).texture; }
+
+    // Uses a program and gives it all arrays that it declares. What it declares beside them is for the caller
+    // to give.
+    const Program& with(const Program& program) const;
+    // Runs a program in use over elements of shaders/state/lanes.glsl: a dispatch, after a barrier where it
+    // reads what others wrote or writes what they read; in fragments a draw of the rows that have them, into
+    // what it writes, and of lists into their entries from `firstEntry` on.
+    void run(const Program& program, int firstNumber, int numbers, int firstEntry = 0);
+    // As many workgroups as three words of a record say.
+    void runIndirect(const Program& program, const std::string& record, size_t offset);
+    // Before what reads or writes, not through run(), what dispatches have written, and after it.
+    void settle();
+    int dispatches() const { return dispatches_; }  // and draws, so far
     size_t bytes() const;
 
   private:
     struct Entry {
-        const Array* array = nullptr;
-        const Buffer* buffer = nullptr;
-        const Texture* texture = nullptr;
+        const ArrayRow* row = nullptr;
+        Array array;
+        Texture texture;
+        const Texture* lent = nullptr;
     };
+    // What of them a program declares, found once.
+    struct Uses {
+        struct Use {
+            const std::string* name;
+            const Entry* entry;
+            bool isRead;
+        };
+        std::vector<Use> samplers, blocks;
+    };
+    const Uses& usesOf(const Program& program) const;
+    // A contract: it is in the table.
+    const Entry& at(const std::string& name) const;
+    Entry& at(const std::string& name) { return const_cast<Entry&>(std::as_const(*this).at(name)); }
+    const Entry* find(std::string_view name) const;
+    std::vector<ColorTarget> targets(const Program& program, int firstEntry) const;
+    void order(const Program& program);
+    void makeBuffer(Entry& entry, size_t values, const void* data);
+    void makeTexture(Entry& entry, size_t elements, const void* data);
+
+    Context* context_;
+    const ArrayTable* table_;
+    ArraySizes sizes_;
+    std::string label_;
     std::map<std::string, Entry, std::less<>> arrays_;
+    std::map<std::string, std::string, std::less<>> aliases_;
+    Framebuffers framebuffers_;
+    mutable std::map<GLuint, Uses> uses_;  // by program
+    std::vector<GLuint> written_, read_;   // buffers, since the last barrier
+    int dispatches_ = 0;
 };
 
 }  // namespace shoal::gpu

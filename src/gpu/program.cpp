@@ -31,7 +31,8 @@ struct Stage {
 
 std::vector<Stage> readStages(const std::string& root, const ProgramOptions& options) {
     const auto resolve = [&](const std::string& file, const char* header) {
-        ShaderSource source = resolveShader(root, file, options.defines, options.generated, header);
+        ShaderSource source =
+            resolveShader(root, file, options.defines, options.generated, header, options.arrays);
         if (options.rewrite) options.rewrite(source);
         return source;
     };
@@ -179,6 +180,8 @@ Program::Program(Context& context, const ProgramOptions& options)
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
             declared_.merge(declared(*text, "uniform"));
         declaredBlocks_.merge(declared(stage.source.text, "buffer"));
+        written_.insert(written_.end(), stage.source.written.begin(), stage.source.written.end());
+        updated_.insert(updated_.end(), stage.source.updated.begin(), stage.source.updated.end());
     }
     findSlots(info);
     labelObject(context, GL_PROGRAM, id(), label_.c_str());

@@ -18,6 +18,7 @@
 
 namespace shoal::gpu {
 
+class ArrayTable;
 struct ShaderSource;
 
 struct ProgramOptions {
@@ -27,6 +28,7 @@ struct ProgramOptions {
     std::string label;
     std::string compute = {};  // a compute program: its file; vertex and fragment stay empty
     std::function<void(ShaderSource&)> rewrite = {};  // changes a stage's text once its includes are in
+    const ArrayTable* arrays = nullptr;               // what its #pragma reads, writes and updates name
 };
 
 class Program {
@@ -66,6 +68,9 @@ class Program {
     // The samplers and storage blocks that the compiler kept.
     const std::vector<std::string>& samplers() const { return slots_->samplers; }
     const std::vector<std::string>& blocks() const { return slots_->blocks; }
+    // The arrays that its #pragma writes and updates name, and those of them that it reads as well.
+    const std::vector<std::string>& written() const { return written_; }
+    const std::vector<std::string>& updated() const { return updated_; }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX, int groupsY = 1) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
@@ -95,6 +100,7 @@ class Program {
     std::shared_ptr<Slots> slots_ = std::make_shared<Slots>();  // at one place when the program is moved
     std::set<std::string, std::less<>> declared_;               // uniforms
     std::set<std::string, std::less<>> declaredBlocks_;         // storage blocks
+    std::vector<std::string> written_, updated_;
     std::string label_;
 };
 

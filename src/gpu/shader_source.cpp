@@ -4,8 +4,11 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include "core/file.h"
+#include "gpu/array_table.h"
 #include "gpu/conditions.h"
 
 namespace shoal::gpu {
@@ -55,12 +58,11 @@ std::string withoutComments(std::string_view line, bool& inside) {
     return out;
 }
 
-// "#include" with spaces where C allows them; sets `rest` to what follows.
-bool isInclude(std::string_view line, std::string_view& rest) {
+// A directive such as "#include", with spaces where C allows them; sets `rest` to what follows.
+bool isDirective(std::string_view line, std::string_view word, std::string_view& rest) {
     line = withoutSpaces(line);
     if (line.empty() || line.front() != '#') return false;
     line = withoutSpaces(line.substr(1));
-    constexpr std::string_view word = "include";
     if (line.substr(0, word.size()) != word) return false;
     rest = line.substr(word.size());
     if (!rest.empty() && isIdentifier(rest.front())) return false;
@@ -70,8 +72,11 @@ bool isInclude(std::string_view line, std::string_view& rest) {
 
 class Resolver {
   public:
-    Resolver(const std::string& root, const std::map<std::string, std::string>& generated)
-        : root_(root), generated_(generated) {}
+    Resolver(const std::string& root, const std::map<std::string, std::string>& generated,
+             const ArrayTable* arrays)
+        : root_(root), generated_(generated), arrays_(arrays) {
+        if (arrays) declarations_.emplace(*arrays);
+    }
 
     int addFile(const std::string& name) {
         source.files.push_back(name);
@@ -101,10 +106,12 @@ class Resolver {
             ++number;
             const std::string line = withoutComments(commented, inComment);
             std::string_view rest;
-            if (isInclude(line, rest)) {
-                const Location here{shown, number, static_cast<int>(line.find('#')) + 1, {}};
+            const Location here{shown, number, static_cast<int>(line.find('#')) + 1, {}};
+            if (isDirective(line, "include", rest)) {
                 const std::string asked = quoted(rest, here);
                 if (conditions_.taken()) add(asked, here);
+            } else if (declarations_ && isDirective(line, "pragma", rest)) {
+                if (conditions_.taken()) declare(rest, file, here);
             } else {
                 addLine(line, file, number);
             }
@@ -115,6 +122,22 @@ class Resolver {
     ShaderSource source;
 
   private:
+    // Puts what a pragma names of arrays in its place.
+    void declare(std::string_view rest, int file, const Location& here) {
+        for (const std::string& include : arrays_->includes())
+            add(include, here);
+        std::istringstream words{std::string(rest)};
+        std::string verb;
+        words >> verb;
+        std::vector<std::string> names;
+        for (std::string name; words >> name;)
+            names.push_back(name);
+        forEachLine(declarations_->declare(verb, names, here),
+                    [&](std::string_view line) { addLine(line, file, here.line); });
+        source.written = declarations_->written();
+        source.updated = declarations_->updated();
+    }
+
     static std::string quoted(std::string_view rest, const Location& where) {
         const size_t end =
             rest.size() > 1 && rest.front() == '"' ? rest.find('"', 1) : std::string_view::npos;
@@ -146,6 +169,8 @@ class Resolver {
 
     std::string root_;
     const std::map<std::string, std::string>& generated_;
+    const ArrayTable* arrays_;
+    std::optional<ArrayDeclarations> declarations_;
     std::set<std::string> included_;
     Conditions conditions_;
 };
@@ -219,8 +244,9 @@ Location ShaderSource::firstLocation(const std::string& driverLog) const {
 
 ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
-                           const std::map<std::string, std::string>& generated, const std::string& header) {
-    Resolver resolver(root, generated);
+                           const std::map<std::string, std::string>& generated, const std::string& header,
+                           const ArrayTable* arrays) {
+    Resolver resolver(root, generated, arrays);
     int number = 0;
     const int headerFile = resolver.addFile("shader header");
     forEachLine(header, [&](std::string_view line) { resolver.addLine(line, headerFile, ++number); });

@@ -18,15 +18,19 @@
 
 namespace shoal::gpu {
 
+class ArrayTable;
+
 struct ShaderSource {
     struct Line {
         int file = 0;  // index into `files`
         int line = 0;  // from 1
     };
     std::string text;
-    std::string leftOut;             // by conditions: what this declares may be set, to no effect
-    std::vector<Line> lines;         // one for each line of `text`
-    std::vector<std::string> files;  // as they are named in messages; [0] is the header
+    std::string leftOut;               // by conditions: what this declares may be set, to no effect
+    std::vector<Line> lines;           // one for each line of `text`
+    std::vector<std::string> files;    // as they are named in messages; [0] is the header
+    std::vector<std::string> written;  // arrays, in the order in which they are named
+    std::vector<std::string> updated;  // those of them that are read as well
 
     // Every "0:12(5): error:" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:" (Intel, AMD, Apple) becomes
     // "file:line[:column]: …"; other lines stay as they are.
@@ -36,11 +40,13 @@ struct ShaderSource {
 };
 
 // `defines`: "NAME" or "NAME value". `generated`: files that exist only in memory, by the name they are
-// included under; they go before files on disk, `file` itself among them. Error, located: no such file; a
-// condition that Conditions does not know.
+// included under; they go before files on disk, `file` itself among them. `arrays`: what #pragma reads,
+// writes and updates name (gpu/array_table.h), or null. Error, located: no such file; a condition that
+// Conditions does not know; no such array.
 ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
-                           const std::map<std::string, std::string>& generated, const std::string& header);
+                           const std::map<std::string, std::string>& generated, const std::string& header,
+                           const ArrayTable* arrays = nullptr);
 
 const char* header330();  // #version 330 core
 const char* header430();  // #version 430 core, the first with compute shaders

@@ -13,10 +13,10 @@
 #include "simulate/execution_path.h"
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
+#include "simulate/school.h"
 #include "simulate/state_view.h"
 #include "simulate/texture_births.h"
 #include "simulate/texture_contact.h"
-#include "simulate/texture_school.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {

@@ -62,7 +62,7 @@ Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, cons
         births_ = std::make_unique<Births>(context, plan, tables, state, together,
                                            atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)));
     if (plan.contact.any()) contact_ = std::make_unique<MoleculeContact>(context, plan, tables, options);
-    if (plan.school.any()) school_ = std::make_unique<Schooling>(context, plan, tables);
+    if (plan.school.any()) school_ = std::make_unique<BufferSchool>(context, plan, tables);
 }
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part,

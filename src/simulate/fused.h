@@ -71,7 +71,7 @@ class Fused : public ExecutionPath {
     std::optional<RunawayWord> alarm_;                   // where watched
     std::unique_ptr<MoleculeContact> contact_;           // null: there is none
     std::unique_ptr<Births> births_;                     // null: none is born and none dies
-    std::unique_ptr<Schooling> school_;                  // null: none steers
+    std::unique_ptr<BufferSchool> school_;               // null: none steers
     double steeringEnd_ = 0;                             // s, of the frame
 };
 

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/arrays.h"
+#include "gpu/named_arrays.h"
 #include "simulate/buffer_state.h"
 #include "simulate/contact_passes.h"
 #include "sort/radix_sort.h"
@@ -153,7 +153,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     bool wakes_ = false;  // all that rests, in this step
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
-    gpu::Arrays arrays_;             // all below, by their names in the shaders (makeArrays)
+    gpu::NamedArrays arrays_;        // all below, by their names in the shaders (makeArrays)
 
     // Of the grid: made anew in each step.
     Array spherePlaces_, sphereCells_, motions_;  // shaders/contact/records.glsl

@@ -1,102 +1,120 @@
 #include "simulate/school.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace shoal {
 
-using gpu::Barrier;
 using gpu::Program;
-using gpu::Texel;
 
 namespace {
 
-constexpr size_t lanes = 64;  // of a workgroup, as the shaders say
-
-void settled() {
-    gpu::barrier({Barrier::textureFetch, Barrier::storage});
-}
-
-void dispatch(const Program& program, int count) {
-    program.dispatch(int((size_t(count) + lanes - 1) / lanes));
-}
-
-size_t mostOf(const gpu::ContextInfo& info) {
+size_t mostInBuffers(const gpu::ContextInfo& info) {
+    constexpr size_t lanes = 64;  // of a workgroup, as the shaders say
     const size_t block = size_t(info.maxStorageBlockBytes) / 16, texels = size_t(info.maxBufferTexels);
     return std::min({block / bodyElements, texels / bodyElements, size_t(info.maxWorkGroupsX) * lanes,
                      RadixSort::most(info), texels / 4});
 }
 
+// Keys are up to twice as many as molecules.
+size_t mostInTextures(const gpu::ContextInfo& info) {
+    const size_t side = std::bit_floor(unsigned(info.maxTextureSize));
+    return std::min(side * side / 2 - 1, NetworkSort::most(info, NetworkSort::Kind::bitonic));
+}
+
+// Textures are as wide as high, or half as high.
+int rowBitsOf(const SchoolPlan& school) {
+    const int numbers = std::max({school.bodyCount, school.entries, school.keys + 1});
+    return (int(std::bit_width(unsigned(numbers - 1))) + 1) / 2;
+}
+
 }  // namespace
 
-Schooling::Schooling(gpu::Context& context, const Plan& plan, const Tables& tables)
-    : SchoolPasses(context, plan, tables, {}),
-      sort_((checkCount(plan.school, mostOf(context.info())), context), size_t(plan.school.entries)) {
-    const auto add = [&](gpu::Array& array, const char* name, size_t texels, Texel texel) {
-        array = gpu::Array(context, texels, texel, concat("school ", name).c_str());
-        arrays_.add(name, array);
-    };
-    const auto entries = size_t(school_->entries);
-    add(bodies_, "bodies", size_t(school_->bodyCount) * bodyElements, Texel::float4);
-    add(sorted_, "sorted", entries, Texel::uint2);
-    add(starts_, "starts", size_t(school_->keys) + 1, Texel::uint1);
-    add(places_, "places", entries, Texel::float4);
-    add(velocities_, "velocities", entries, Texel::float4);
-    makePrograms();
-}
+BufferSchool::BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
+    : SchoolPasses(context, plan, tables, Form::buffers, mostInBuffers(context.info())),
+      sort_(context, size_t(plan.school.entries)) {}
 
-void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
-    for (size_t b = 0; b < school_->bodies.size(); ++b) {
-        const SchoolBodies& bodies = school_->bodies[b];
-        const Program& program = useBody(b);
-        arrays_.bind(program);
-        for (const GroupBuffers::Part& part : state[bodies.group].parts()) {
-            program.texture("oldState", state[bodies.group].oldState(part));
-            program.texture("oldRecords", part.record);
-            program.set("partMolecules", part.count);
-            program.set("firstBody", bodies.first + part.first);
-            dispatch(program, part.count);
-        }
+void BufferSchool::findBodies(size_t index) {
+    const SchoolBodies& bodies = school_->bodies[index];
+    const GroupBuffers& state = (*state_)[bodies.group];
+    const Program& program = useBodies(index);
+    for (const GroupBuffers::Part& part : state.parts()) {
+        program.texture("oldState", state.oldState(part));
+        program.texture("oldRecords", part.record);
+        program.set("firstBody", bodies.first + part.first);
+        arrays_.run(program, 0, part.count);
     }
-    settled();
 }
 
-void Schooling::makeKeys() {
-    const Program& program = useKeys();
-    arrays_.bind(program);
-    dispatch(program, school_->entries);
-    settled();
+void BufferSchool::sortKeys() {
+    arrays_.run(useKeys(), 0, school_->entries);
+    sort_.sort(arrays_.buffer("sorted"), size_t(school_->entries), school_->keyBits());
+    arrays_.settle();
 }
 
-void Schooling::order() {
-    sort_.sort(sorted_.buffer, size_t(school_->entries), school_->keyBits());
-    settled();
-    const Program& program = useOrder();
-    arrays_.bind(program);
-    program.set("keyCount", school_->keys);
-    dispatch(program, school_->entries);
-    settled();
-}
-
-void Schooling::steer(size_t index, const Frame& frame, const std::vector<GroupBuffers>& state) {
+void BufferSchool::steer(size_t index, const Frame& frame) {
     const SchoolMember& member = school_->members[index];
     const Program& program = useSteer(index, frame);
-    arrays_.bind(program);
-    program.storage("Steering", state[member.group].steering());
-    dispatch(program, school_->grids[member.grid].entries);
+    program.storage("Steering", (*state_)[member.group].steering());
+    arrays_.run(program, 0, school_->grids[member.grid].entries);
 }
 
-void Schooling::step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
-    {
-        const auto timer = timers.time("school grid");
-        settled();
-        findBodies(state);
-        makeKeys();
-        order();
-    }
-    const auto timer = timers.time("school steer");
-    for (size_t m = 0; m < school_->members.size(); ++m)
-        steer(m, frame, state);
-    settled();
+void BufferSchool::step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
+    state_ = &state;
+    run(frame, timers);
+}
+
+TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
+    : SchoolPasses(context, plan, tables, Form::textures, mostInTextures(context.info()),
+                   rowBitsOf(plan.school)),
+      sort_(context, NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_,
+            NetworkSort::Ties::byIndex) {
+    starts_ = Program(context, optionsOf("sort/starts", "school starts", nullptr));
+    gpu::ProgramOptions steered = optionsOf("school/steered", "school steering", nullptr);
+    steered.defines.push_back(concat("STATE_WIDTH ", stateWidth));
+    steered_ = Program(context, steered);
+}
+
+void TextureSchool::findBodies(size_t index) {
+    const SchoolBodies& bodies = school_->bodies[index];
+    const Program& program = useBodies(index);
+    program.texture("oldState", (*state_)[bodies.group].state());
+    program.texture("oldRecords", (*state_)[bodies.group].records());
+    program.set("firstBody", bodies.first);
+    arrays_.run(program, bodies.first, plan_->groups[bodies.group].count);
+}
+
+void TextureSchool::sortKeys() {
+    useKeys().set("numbers", school_->entries);
+    sort_.drawInto(sort_.target());
+    gpu::drawVertices(3);
+    sort_.flip();
+    sort_.sort();
+    arrays_.lend("sorted", sort_.pairs());
+    arrays_.with(starts_).set("count", school_->entries);
+    arrays_.run(starts_, 0, school_->keys + 1);
+}
+
+void TextureSchool::steer(size_t index, const Frame& frame) {
+    GroupLayers& state = (*state_)[school_->members[index].group];
+    const Program& program = useSteer(index, frame);
+    program.texture("steering", state.steering());
+    const SchoolMember& member = school_->members[index];
+    const glm::ivec4 range = rangeOf(member.grid);
+    arrays_.run(program, range.x, range.y);
+    arrays_.with(steered_).set("grid", range);
+    steered_.set("inverseCell", float(1 / cellOf(member.grid)));
+    steered_.set("firstBody", school_->bodiesOf(member.group).first);
+    steered_.set("entries", school_->entries);
+    state.newSteering().bind();
+    gpu::drawVertices(3);
+    state.flipSteering();
+}
+
+void TextureSchool::step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers) {
+    gpu::drawPlainly();
+    state_ = &state;
+    run(frame, timers);
 }
 
 }  // namespace shoal

@@ -1,34 +1,50 @@
-// Schools with compute shaders (simulate/school_passes.h): what is numbered lies in buffers, and a radix sort
-// orders it.
+// Schools with compute shaders and in fragments (simulate/school_passes.h).
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "gpu/arrays.h"
+#include "gpu/framebuffer.h"
 #include "simulate/buffer_state.h"
+#include "simulate/layer_state.h"
 #include "simulate/school_passes.h"
+#include "sort/network_sort.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
 
-class Schooling : public SchoolPasses {
+class BufferSchool : public SchoolPasses {
   public:
     // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
-    Schooling(gpu::Context& context, const Plan& plan, const Tables& tables);
+    BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables);
 
     // Steers the molecules of `state` for this frame.
     void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
   private:
-    void findBodies(const std::vector<GroupBuffers>& state);
-    void makeKeys();
-    void order();
-    void steer(size_t member, const Frame& frame, const std::vector<GroupBuffers>& state);
+    void findBodies(size_t bodies) override;
+    void sortKeys() override;
+    void steer(size_t member, const Frame& frame) override;
 
     RadixSort sort_;
-    gpu::Array bodies_, sorted_, starts_, places_, velocities_;
-    gpu::Arrays arrays_;  // all of them, by their names in the shaders
+    const std::vector<GroupBuffers>* state_ = nullptr;
+};
+
+class TextureSchool : public SchoolPasses {
+  public:
+    // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
+    TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables);
+
+    // Steers the molecules of `state` for this frame; blending, tests and masks are off in it.
+    void step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers);
+
+  private:
+    void findBodies(size_t bodies) override;
+    void sortKeys() override;
+    void steer(size_t member, const Frame& frame) override;
+
+    NetworkSort sort_;
+    gpu::Program starts_, steered_;
+    std::vector<GroupLayers>* state_ = nullptr;
 };
 
 }  // namespace shoal

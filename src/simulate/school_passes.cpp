@@ -25,43 +25,36 @@ bool sameTargets(const std::vector<SchoolTarget>& a, const std::vector<SchoolTar
 
 }  // namespace
 
-SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables,
-                           std::optional<int> rowBits)
-    : context_(&context), plan_(&plan), school_(&plan.school), tables_(&tables), rowBits_(rowBits) {}
-
-void SchoolPasses::checkCount(const SchoolPlan& school, size_t most) {
-    const auto wanted = size_t(std::max(school.bodyCount, school.entries));
-    if (wanted <= most) return;
-    throw Error(school.members[0].school.location,
+// Error: more molecules or entries than a context holds.
+static const Plan& checked(const Plan& plan, size_t most) {
+    const auto wanted = size_t(std::max(plan.school.bodyCount, plan.school.entries));
+    if (wanted <= most) return plan;
+    throw Error(plan.school.members[0].school.location,
                 concat("a school of ", wanted, " molecules is more than this context holds: at most ", most));
 }
 
-gpu::ProgramOptions SchoolPasses::optionsOf(const char* file, const std::string& label,
-                                            const GroupPlan* group) const {
-    gpu::ProgramOptions out;
-    out.label = label;
-    if (group) out.defines = group->layout().defines(rowBits_.has_value());
-    out.defines.push_back(concat("BODY_ELEMENTS ", bodyElements));
-    out.defines.push_back(concat("STEERING_ELEMENTS ", steeringElements));
-    if (rowBits_) {
-        out.vertex = "passes/fullscreen.vert";
-        out.fragment = concat("school/", file, ".frag");
-        out.defines.insert(out.defines.end(), {"TEXTURES", concat("ROW_BITS ", *rowBits_)});
-    } else {
-        out.compute = concat("school/", file, ".comp");
-    }
-    return out;
-}
-
-void SchoolPasses::makePrograms() {
-    gpu::ProgramOptions keys = optionsOf("keys", "school keys", nullptr);
+SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form,
+                           size_t most, int rowBits)
+    : context_(&context),
+      plan_(&checked(plan, most)),
+      school_(&plan.school),
+      table_(context.shaders() + "/school/arrays.txt", form),
+      rowBits_(rowBits),
+      arrays_(context, table_,
+              {{{"body", size_t(school_->bodyCount)},
+                {"entry", size_t(school_->entries)},
+                {"key", size_t(school_->keys)}},
+               0,
+               rowBits},
+              {}, "school"),
+      tables_(&tables) {
+    gpu::ProgramOptions keys = optionsOf("school/keys", "school keys", nullptr);
     keys.defines.push_back(concat("GRIDS ", school_->grids.size()));
     keys_ = Program(*context_, keys);
-    gpu::ProgramOptions order = optionsOf("order", "school order", nullptr);
-    order_ = Program(*context_, order);
+    order_ = Program(*context_, optionsOf("school/order", "school order", nullptr));
     for (const SchoolBodies& bodies : school_->bodies) {
         const GroupPlan& group = plan_->groups[bodies.group];
-        gpu::ProgramOptions body = optionsOf("body", concat("bodies of ", group.name), &group);
+        gpu::ProgramOptions body = optionsOf("school/bodies", concat("bodies of ", group.name), &group);
         body.generated = {{"generated/body.glsl", bodies.text}};
         bodyPrograms_.push_back(&programs_.get(*context_, body));
     }
@@ -69,9 +62,41 @@ void SchoolPasses::makePrograms() {
         makeSteer(member);
 }
 
+gpu::ProgramOptions SchoolPasses::optionsOf(const std::string& file, const std::string& label,
+                                            const GroupPlan* group) const {
+    gpu::ProgramOptions out;
+    out.label = label;
+    out.arrays = &table_;
+    if (group) out.defines = group->layout().defines(hasTextures());
+    out.defines.push_back(concat("BODY_ELEMENTS ", bodyElements));
+    out.defines.push_back(concat("STEERING_ELEMENTS ", steeringElements));
+    (hasTextures() ? out.fragment : out.compute) = file + ".pass.glsl";
+    if (!hasTextures()) return out;
+    out.vertex = "passes/fullscreen.vert";
+    out.defines.insert(out.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_)});
+    return out;
+}
+
+void SchoolPasses::run(const Frame& frame, gpu::PassTimers& timers) {
+    {
+        const auto timer = timers.time("school grid");
+        arrays_.settle();
+        for (size_t b = 0; b < school_->bodies.size(); ++b)
+            findBodies(b);
+        sortKeys();
+        arrays_.with(order_);
+        if (!hasTextures()) order_.set("keyCount", school_->keys);
+        arrays_.run(order_, 0, school_->entries);
+    }
+    const auto timer = timers.time("school steer");
+    for (size_t m = 0; m < school_->members.size(); ++m)
+        steer(m, frame);
+    arrays_.settle();
+}
+
 void SchoolPasses::makeSteer(const SchoolMember& member) {
     const GroupPlan& group = plan_->groups[member.group];
-    gpu::ProgramOptions options = optionsOf("steer", concat("steering of ", group.name), &group);
+    gpu::ProgramOptions options = optionsOf("school/steer", concat("steering of ", group.name), &group);
     options.defines.push_back(concat("TARGETS ", member.targetGrids.size()));
     options.defines.push_back(concat("CLOCK_PERIOD float(", clockPeriodOf(group), ")"));
     if (group.needs.avoids) options.defines.push_back("WALLS");
@@ -98,9 +123,8 @@ glm::ivec4 SchoolPasses::rangeOf(size_t g) const {
     return {grid.firstEntry, grid.entries, grid.firstKey, grid.keys};
 }
 
-const Program& SchoolPasses::useBody(size_t bodies) const {
-    const Program& program = *bodyPrograms_[bodies];
-    program.use();
+const Program& SchoolPasses::useBodies(size_t bodies) const {
+    const Program& program = arrays_.with(*bodyPrograms_[bodies]);
     program.set("origin", glm::vec3(school_->origin));
     return program;
 }
@@ -113,21 +137,14 @@ const Program& SchoolPasses::useKeys() const {
         ranges.emplace_back(grid.firstEntry, school_->bodiesOf(grid.group).first, grid.firstKey, grid.keys);
         sizes.emplace_back(float(1 / cellOf(g)), 0, 0, 0);
     }
-    keys_.use();
+    arrays_.with(keys_);
     keys_.set("gridRanges", std::span<const glm::ivec4>(ranges));
     keys_.set("cellSizes", std::span<const glm::vec4>(sizes));
-    keys_.set("count", school_->entries);
     return keys_;
 }
 
-const Program& SchoolPasses::useOrder() const {
-    order_.use();
-    order_.set("count", school_->entries);
-    return order_;
-}
-
 const Program& SchoolPasses::useSteer(size_t member, const Frame& frame) const {
-    members_[member].steer->use();
+    arrays_.with(*members_[member].steer);
     setRules(member, frame);
     return *members_[member].steer;
 }

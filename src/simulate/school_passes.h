@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "compile/plan.h"
+#include "gpu/arrays.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/step.h"
@@ -25,33 +26,43 @@ namespace shoal {
 
 class SchoolPasses {
   public:
+    virtual ~SchoolPasses() = default;
     // Other numbers for a group's school, from the next step on. False, and nothing changes: it has none, or
     // what differs needs another plan (whom it flees or hunts, whether there are walls).
     bool change(size_t group, const School& school);
 
   protected:
-    // Borrows the plan and the tables. `rowBits`: of the textures in which fragment shaders find what is
-    // numbered; without it they are compute shaders and buffers.
-    SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, std::optional<int> rowBits);
+    using Form = gpu::ArrayTable::Form;
 
-    void makePrograms();
-    // Error, located at the first school: more than `most` molecules or entries.
-    static void checkCount(const SchoolPlan& school, size_t most);
-    // Return a program, in use, with its numbers.
-    const gpu::Program& useBody(size_t bodies) const;
+    // Borrows the plan and the tables. `rowBits`: of textures. Error, located at the first school: more than
+    // `most` molecules or entries; out of memory.
+    SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form, size_t most,
+                 int rowBits = 0);
+
+    // Steers all molecules for this frame.
+    void run(const Frame& frame, gpu::PassTimers& timers);
+    // In use, with their numbers and all arrays.
+    const gpu::Program& useBodies(size_t bodies) const;
     const gpu::Program& useKeys() const;
-    const gpu::Program& useOrder() const;
     const gpu::Program& useSteer(size_t member, const Frame& frame) const;
     glm::ivec4 rangeOf(size_t grid) const;  // first slot, slots, first key, keys
     double cellOf(size_t grid) const;       // m
     // The files and defines of a program of this form; `group`: whose state it reads.
-    gpu::ProgramOptions optionsOf(const char* file, const std::string& label, const GroupPlan* group) const;
+    gpu::ProgramOptions optionsOf(const std::string& file, const std::string& label,
+                                  const GroupPlan* group) const;
 
     gpu::Context* context_;
     const Plan* plan_;
     const SchoolPlan* school_;
+    gpu::ArrayTable table_;
+    int rowBits_;
+    gpu::Arrays arrays_;
 
   private:
+    virtual void findBodies(size_t bodies) = 0;
+    virtual void sortKeys() = 0;
+    virtual void steer(size_t member, const Frame& frame) = 0;
+
     struct Member {
         const gpu::Program* steer;
         School school;
@@ -59,9 +70,9 @@ class SchoolPasses {
 
     void makeSteer(const SchoolMember& member);
     void setRules(size_t member, const Frame& frame) const;
+    bool hasTextures() const { return table_.form() == Form::textures; }
 
     const Tables* tables_;
-    std::optional<int> rowBits_;
     gpu::Programs programs_;
     std::vector<const gpu::Program*> bodyPrograms_;  // one a SchoolBodies
     std::vector<Member> members_;

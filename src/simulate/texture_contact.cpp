@@ -170,7 +170,7 @@ void TextureContact::makePrograms(gpu::Context& context) {
     options.defines.insert(options.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_),
                                                    concat("ENTRIES_A_DRAW ", entriesADraw)});
     if (staggered_) options.defines.emplace_back("STAGGERED");
-    options.fragment = "sort/starts.frag";
+    options.fragment = "contact/old_starts.frag";
     options.label = "contact starts";
     starts_ = Program(context, options);
     const auto make = [&](const char* file) {

@@ -25,9 +25,9 @@
 #include <string>
 #include <vector>
 
-#include "gpu/arrays.h"
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
+#include "gpu/named_arrays.h"
 #include "gpu/texture.h"
 #include "simulate/contact_passes.h"
 #include "sort/network_sort.h"
@@ -126,7 +126,7 @@ class TextureContact : public ContactPasses<ContactState> {
     // In turn: the last stage's, those before, the next.
     std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
     gpu::Texture effectiveCounts_, contactSums_, motionsNow_, bodies_, gains_;
-    gpu::Arrays arrays_;  // all above, by their names in the shaders
+    gpu::NamedArrays arrays_;  // all above, by their names in the shaders
     gpu::Framebuffers targets_;
 };
 

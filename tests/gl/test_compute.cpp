@@ -4,9 +4,9 @@
 
 #include "core/error.h"
 #include "gl/gl_test.h"
-#include "gpu/arrays.h"
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
+#include "gpu/named_arrays.h"
 #include "gpu/program.h"
 #include "support/catch.h"
 #include "support/end_of.h"
@@ -146,7 +146,7 @@ TEST_CASE("a program is given the arrays that it declares", "[compute]") {
         keys(testContext(), 2, Texel::uint1, "keys", numbers), sums(testContext(), 4, Texel::float4, "sums"),
         empty;
     const Buffer totals(testContext(), Buffer::Use::storage, std::span<const float>(total), "totals");
-    Arrays arrays;
+    NamedArrays arrays;
     arrays.add("places", places);
     arrays.add("keys", keys);
     arrays.add("alsoKeys", keys);

@@ -1,0 +1,28 @@
+// A pass over numbered elements, from `firstNumber` on: a lane of a compute shader has one, or a texel of a pass in fragments.
+#include "state/numbered.glsl"
+
+uniform int firstNumber;
+uniform int numbers;  // how many
+
+#ifdef TEXTURES
+// Returns which of them this texel is for, from 0. Texels beside them are left as they are.
+int ownLane()
+{
+    int lane = ownNumber() - firstNumber;
+    if (lane < 0 || lane >= numbers) discard;
+    return lane;
+}
+#else
+layout(local_size_x = 64) in;
+
+// Lanes behind the last do what it does.
+int ownLane()
+{
+    return min(int(gl_GlobalInvocationID.x), numbers - 1);
+}
+
+bool isBehindLast()
+{
+    return int(gl_GlobalInvocationID.x) >= numbers;
+}
+#endif

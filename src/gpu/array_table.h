@@ -1,0 +1,90 @@
+// What a subsystem keeps on the GPU, as a table of text among the shaders (shaders/contact/arrays.txt): from it
+// come the arrays themselves (gpu/arrays.h) and what shaders declare of them.
+//
+// A shader names what it reads and what it writes; a name counts once, wherever it stands:
+//
+//   #pragma reads places counts     values of the last stage: placesAt(slot), countsAt(slot)
+//   #pragma writes totals           putTotals(slot, k, value), of the element that the lane or texel is for;
+//                                   putAllTotals(slot, values)
+//   #pragma updates marks           marksBuffer[slot], read and written; with buffers only
+//
+// With buffers a lane writes where it likes. In fragments `writes` makes the outputs of the pass, whose
+// targets follow from their names (Program::writes); of an array that has a value for each entry of a list a
+// pass writes some entries, from `firstEntry` on, and calls putEntries() at its end.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "gpu/buffer.h"
+
+namespace shoal::gpu {
+
+struct ArrayRow {
+    enum class Start { undefined, zero, far };  // far: w is 1e30
+    std::string name;
+    Texel texel = Texel::float4;  // what a value is
+    int packed = 1;               // values a texel
+    int count = 1;                // values of an element
+    bool ofList = false;          // one for each entry of the element's list instead
+    std::string index;            // what an element is of: "slot"; "given": the caller has the content
+    size_t more = 0;              // elements behind the last
+    bool isRecord = false;        // words in a storage block that shaders declare by themselves
+    Start start = Start::undefined;
+    std::vector<std::string> when;  // what a scene must have, or with ! must not, to need it
+};
+
+class ArrayTable {
+  public:
+    enum class Form { buffers, textures };
+    // Reads the rows of a form. Error, located: a row that cannot be read; two of one name.
+    ArrayTable(const std::string& file, Form form);
+
+    Form form() const { return form_; }
+    const std::map<std::string, ArrayRow, std::less<>>& rows() const { return rows_; }
+    // The includes that declarations need.
+    const std::vector<std::string>& includes() const { return includes_; }
+    const ArrayRow* find(std::string_view name) const;
+    // Error, located: there is no such row.
+    const ArrayRow& row(std::string_view name, const Location& asker) const;
+
+  private:
+    void readRow(const std::vector<std::string>& cells, const Location& where);
+
+    std::string file_;
+    Form form_;
+    std::map<std::string, ArrayRow, std::less<>> rows_;
+    std::vector<std::string> includes_;
+};
+
+// What one shader has declared so far.
+class ArrayDeclarations {
+  public:
+    static constexpr int drawBuffers = 8;  // that OpenGL 3.3 promises
+
+    explicit ArrayDeclarations(const ArrayTable& table) : table_(&table) {}
+
+    // The text in place of #pragma reads, writes or updates with these names. Error, located: it is none of
+    // the three; no such array; an array that fragments update.
+    std::string declare(const std::string& verb, const std::vector<std::string>& names, const Location& where);
+    const std::vector<std::string>& written() const { return written_; }
+    const std::vector<std::string>& updated() const { return updated_; }  // those of them that it reads as well
+
+  private:
+    std::string reading(const ArrayRow& row);
+    std::string block(const ArrayRow& row, bool alsoReads);
+    std::string outputs(const std::vector<const ArrayRow*>& rows);
+    std::string withStride(const ArrayRow& row);
+
+    const ArrayTable* table_;
+    std::set<std::string> read_;
+    std::vector<std::string> written_, updated_;
+    int location_ = 0;
+    bool hasStride_ = false;
+};
+
+}  // namespace shoal::gpu
