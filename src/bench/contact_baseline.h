@@ -1,5 +1,5 @@
 // Contact between molecules, written for the CPU by hand: what `shoal bench collide` compares
-// MoleculeContact::step with (simulate/molecule_contact.h). The same work, and the same equations
+// Contact::step with (simulate/contact/contact.h). The same work, and the same equations
 // (docs/contact.md): spheres at the vertices from the state, a counting-sorted grid of cells of twice the
 // largest distance of a contact that is hashed into a table, the exact search in the eight cells on a
 // sphere's side, all contacts of a sphere in one list, what they remember of the last step, the simultaneous

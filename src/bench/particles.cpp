@@ -9,7 +9,7 @@
 #include "bench/sort.h"
 #include "gpu/gl.h"
 #include "scene/field_kinds.h"
-#include "simulate/molecule_contact.h"
+#include "simulate/contact/data.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
@@ -178,7 +178,7 @@ std::string reasonToLeaveOut(const ParticleCase& one, const BenchDevice& device)
     if (!info.computeShaders && computes)
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
     if (one.contact && one.path == Path::fused) {
-        const size_t most = MoleculeContact::most(info, {});
+        const size_t most = ContactData::most(info, {});
         if (size_t(one.count()) > most) return concat("this context holds the contact of ", most);
     }
     if (one.drawn && !device.makeDraw) return "nothing to draw with";

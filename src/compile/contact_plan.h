@@ -48,7 +48,7 @@ struct ContactPlan {
     // s: a molecule rests that has stayed where it was for so long.
     static constexpr double restTime = 0.25;
     // So many of the colliders near a sphere are known to its response.
-    static constexpr int mostWalls = 3;
+    static constexpr int mostColliders = 3;
     std::vector<ContactGroup> groups;
     int spheres = 0;
     double largestRadius = 0;  // m, with the largest scale

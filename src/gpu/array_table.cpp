@@ -158,7 +158,8 @@ std::string ArrayDeclarations::reading(const ArrayRow& row) {
         fetched = concat("    uvec4 two = texelFetch(", row.name,
                          ", texelOf(i >> 1), 0);\n    return (i & 1) == 0 ? two.xy : two.zw");
     } else {
-        const std::string texel = layered ? concat("ivec3(texelOf(i), ", row.ofList ? "e" : "k", ")") : "texelOf(i)";
+        const std::string texel =
+            layered ? concat("ivec3(texelOf(i), ", row.ofList ? "e" : "k", ")") : "texelOf(i)";
         fetched = concat("    return texelFetch(", row.name, ", ", texel, ", 0)", partsOf(row));
     }
     return concat(withStride(row), "uniform ", whole, sampler, " ", row.name, ";\n", head, fetched, ";\n}\n");
@@ -167,14 +168,21 @@ std::string ArrayDeclarations::reading(const ArrayRow& row) {
 std::string ArrayDeclarations::block(const ArrayRow& row, bool alsoReads) {
     if (std::find(written_.begin(), written_.end(), row.name) != written_.end()) return "";
     written_.push_back(row.name);
-    if (alsoReads) updated_.push_back(row.name);
     const std::string name = capital(row.name);
-    std::string out = concat(withStride(row), "layout(std430) ", alsoReads ? "" : "writeonly ", "buffer ", name, " { ",
-                  typeOf(row), " ", row.name, "Buffer[]; };\n#define put", name, "(", argumentsOf(row, ""),
-                  ", value) ", row.name, "Buffer[", placeOf(row), "] = (value)\n");
+    std::string out =
+        concat(withStride(row), "layout(std430) ", alsoReads ? "" : "writeonly ", "buffer ", name, " { ",
+               typeOf(row), " ", row.name, "Buffer[]; };\n#define put", name, "(", argumentsOf(row, ""),
+               ", value) ", row.name, "Buffer[", placeOf(row), "] = (value)\n");
+    if (alsoReads) {
+        updated_.push_back(row.name);
+        read_.insert(row.name);
+        out += concat(typeOf(row), " ", row.name, "At(", argumentsOf(row, "int "), ")\n{\n    return ",
+                      row.name, "Buffer[", placeOf(row), "];\n}\n");
+    }
     if (row.count > 1)
-        out += concat("void putAll", name, "(int i, ", typeOf(row), " values[", row.count, "])\n{\n    for (int k = 0; k < ", row.count,
-                      "; ++k) put", name, "(i, k, values[k]);\n}\n");
+        out += concat("void putAll", name, "(int i, ", typeOf(row), " values[", row.count,
+                      "])\n{\n    for (int k = 0; k < ", row.count, "; ++k) put", name,
+                      "(i, k, values[k]);\n}\n");
     return out;
 }
 
@@ -186,20 +194,23 @@ std::string ArrayDeclarations::outputs(const std::vector<const ArrayRow*>& rows)
     if (lists > 0) out += concat("#define ENTRIES_A_DRAW ", together, "\nuniform int firstEntry;\n");
     for (const ArrayRow* row : rows) {
         written_.push_back(row->name);
-        const std::string name = capital(row->name), output = concat("new", name), put = concat("#define put", name, "(", argumentsOf(*row, ""));
+        const std::string name = capital(row->name), output = concat("new", name),
+                          put = concat("#define put", name, "(", argumentsOf(*row, ""));
         const std::string head = concat("layout(location = ", location_, ") out ");
         if (row->ofList && row->packed > 1) {
             out += concat(head, "uvec4 ", output, "[LIST / 4];\n");
         } else if (row->ofList) {
-            out += concat(head, typeOf(*row), " ", output, "[ENTRIES_A_DRAW];\n", typeOf(*row), " ", row->name, "Values[ENTRIES_A_DRAW];\n",
-                          put, ", value) ", row->name, "Values[(e) - firstEntry] = (value)\n");
+            out += concat(head, typeOf(*row), " ", output, "[ENTRIES_A_DRAW];\n", typeOf(*row), " ",
+                          row->name, "Values[ENTRIES_A_DRAW];\n", put, ", value) ", row->name,
+                          "Values[(e) - firstEntry] = (value)\n");
             copies += concat("    ", output, " = ", row->name, "Values;\n");
             location_ += together;
         } else if (row->packed > 1) {
             out += concat(head, "uvec4 ", output, ";\n");
             ++location_;
         } else if (row->count > 1) {
-            out += concat(head, typeOf(*row), " ", output, "[", row->count, "];\n", put, ", value) ", output, "[k] = (value)\n#define putAll", name, "(i, values) ", output, " = (values)\n");
+            out += concat(head, typeOf(*row), " ", output, "[", row->count, "];\n", put, ", value) ", output,
+                          "[k] = (value)\n#define putAll", name, "(i, values) ", output, " = (values)\n");
             location_ += row->count;
         } else {
             out += concat(head, typeOf(*row), " ", output, ";\n", put, ", value) ", output, " = (value)\n");
@@ -212,6 +223,8 @@ std::string ArrayDeclarations::outputs(const std::vector<const ArrayRow*>& rows)
 
 std::string ArrayDeclarations::declare(const std::string& verb, const std::vector<std::string>& names,
                                        const Location& where) {
+    if (verb != "reads" && verb != "writes" && verb != "updates")
+        throw Error(where, "expected #pragma reads, writes or updates, and names of arrays");
     std::vector<const ArrayRow*> rows;
     for (const std::string& name : names)
         rows.push_back(&table_->row(name, where));
@@ -219,8 +232,11 @@ std::string ArrayDeclarations::declare(const std::string& verb, const std::vecto
     if (verb == "writes" && textures) return outputs(rows);
     if (verb == "updates" && textures) throw Error(where, "fragments update no array");
     std::string out;
-    for (const ArrayRow* row : rows)
+    for (const ArrayRow* row : rows) {
+        if (verb == "updates" && read_.contains(row->name))
+            throw Error(where, concat("\"", row->name, "\" is updated after it was read"));
         out += verb == "reads" ? reading(*row) : block(*row, verb == "updates");
+    }
     return out;
 }
 

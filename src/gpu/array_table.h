@@ -1,12 +1,14 @@
-// What a subsystem keeps on the GPU, as a table of text among the shaders (shaders/contact/arrays.txt): from it
-// come the arrays themselves (gpu/arrays.h) and what shaders declare of them.
+// What a subsystem keeps on the GPU, as a table of text among the shaders (shaders/contact/arrays.txt): from
+// it come the arrays themselves (gpu/arrays.h) and what shaders declare of them.
 //
 // A shader names what it reads and what it writes; a name counts once, wherever it stands:
 //
 //   #pragma reads places counts     values of the last stage: placesAt(slot), countsAt(slot)
 //   #pragma writes totals           putTotals(slot, k, value), of the element that the lane or texel is for;
 //                                   putAllTotals(slot, values)
-//   #pragma updates marks           marksBuffer[slot], read and written; with buffers only
+//   #pragma updates marks           both, of marksBuffer[slot], which atomics take; with buffers only, and
+//   before
+//                                   what reads it
 //
 // With buffers a lane writes where it likes. In fragments `writes` makes the outputs of the pass, whose
 // targets follow from their names (Program::writes); of an array that has a value for each entry of a list a
@@ -70,9 +72,12 @@ class ArrayDeclarations {
 
     // The text in place of #pragma reads, writes or updates with these names. Error, located: it is none of
     // the three; no such array; an array that fragments update.
-    std::string declare(const std::string& verb, const std::vector<std::string>& names, const Location& where);
+    std::string declare(const std::string& verb, const std::vector<std::string>& names,
+                        const Location& where);
     const std::vector<std::string>& written() const { return written_; }
-    const std::vector<std::string>& updated() const { return updated_; }  // those of them that it reads as well
+    const std::vector<std::string>& updated() const {
+        return updated_;
+    }  // those of them that it reads as well
 
   private:
     std::string reading(const ArrayRow& row);

@@ -169,22 +169,26 @@ const Program& Arrays::with(const Program& program) const {
     return program;
 }
 
+int Arrays::entriesADraw(const Program& program) const {
+    const std::vector<std::string>& names = program.written();
+    const auto lists =
+        std::count_if(names.begin(), names.end(), [&](const std::string& name) { return isList(name); });
+    return lists > 0 ? ArrayDeclarations::drawBuffers / int(lists) : 0;
+}
+
+bool Arrays::isList(const std::string& name) const {
+    const ArrayRow& row = *at(name).row;
+    return row.ofList && row.packed == 1;
+}
+
 std::vector<ColorTarget> Arrays::targets(const Program& program, int firstEntry) const {
     std::vector<ColorTarget> out;
-    size_t lists = 0;
-    const auto isList = [&](const std::string& name) {
-        return at(name).row->ofList && at(name).row->packed == 1;
-    };
-    for (const std::string& name : program.written())
-        lists += size_t(isList(name));
+    const int entries = entriesADraw(program);
     for (const std::string& name : program.written()) {
         const Texture& texture = at(name).texture;
         EXPECTS(texture && "what the pass draws into was made");
-        if (!isList(name)) {
-            out.emplace_back(&texture);
-            continue;
-        }
-        for (int e = 0; e < ArrayDeclarations::drawBuffers / int(lists); ++e)
+        if (!isList(name)) out.emplace_back(&texture);
+        for (int e = 0; isList(name) && e < entries; ++e)
             out.emplace_back(&texture, firstEntry + e);
     }
     return out;
@@ -216,20 +220,22 @@ void Arrays::settle() {
 }
 
 void Arrays::run(const Program& program, int firstNumber, int numbers, int firstEntry) {
-    ++dispatches_;
     program.set("numbers", numbers);
-    if (table_->form() == ArrayTable::Form::buffers) {
-        order(program);
-        constexpr int lanes = 64;  // of a workgroup, as the shaders say
-        program.dispatch((numbers + lanes - 1) / lanes);
-        return;
-    }
     program.set("firstNumber", firstNumber);
+    constexpr int lanes = 64;  // of a workgroup, as the shaders say
+    if (table_->form() == ArrayTable::Form::buffers) return runGroups(program, (numbers + lanes - 1) / lanes);
+    ++dispatches_;
     const Framebuffer& target = framebuffers_.into(targets(program, firstEntry));
     const int first = firstNumber >> sizes_.rowBits,
               end = ((firstNumber + numbers - 1) >> sizes_.rowBits) + 1;
     target.bind(0, first, target.width(), end - first);
     drawVertices(3);
+}
+
+void Arrays::runGroups(const Program& program, int groups) {
+    ++dispatches_;
+    order(program);
+    program.dispatch(groups);
 }
 
 void Arrays::runIndirect(const Program& program, const std::string& record, size_t offset) {

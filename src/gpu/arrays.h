@@ -65,11 +65,14 @@ class Arrays {
     // reads what others wrote or writes what they read; in fragments a draw of the rows that have them, into
     // what it writes, and of lists into their entries from `firstEntry` on.
     void run(const Program& program, int firstNumber, int numbers, int firstEntry = 0);
-    // As many workgroups as three words of a record say.
+    // So many workgroups, or as many as three words of a record say.
+    void runGroups(const Program& program, int groups);
     void runIndirect(const Program& program, const std::string& record, size_t offset);
     // Before what reads or writes, not through run(), what dispatches have written, and after it.
     void settle();
     int dispatches() const { return dispatches_; }  // and draws, so far
+    // Of a list, how many entries a program of fragments writes at once.
+    int entriesADraw(const Program& program) const;
     size_t bytes() const;
 
   private:
@@ -93,6 +96,7 @@ class Arrays {
     const Entry& at(const std::string& name) const;
     Entry& at(const std::string& name) { return const_cast<Entry&>(std::as_const(*this).at(name)); }
     const Entry* find(std::string_view name) const;
+    bool isList(const std::string& name) const;
     std::vector<ColorTarget> targets(const Program& program, int firstEntry) const;
     void order(const Program& program);
     void makeBuffer(Entry& entry, size_t values, const void* data);

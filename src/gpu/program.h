@@ -76,6 +76,7 @@ class Program {
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
     void dispatchIndirect(const Buffer& groups, size_t offset) const;
     bool uses(const char* name) const { return locations_.contains(name); }  // the compiler kept it
+    bool declares(const char* block) const { return declaredBlocks_.contains(block); }  // a storage block
 
     GLuint id() const { return handle_.id(); }
     const std::string& label() const { return label_; }

@@ -207,7 +207,7 @@ void checkContacts(const ContactMemory& memory, const Location& location) {
     for (const auto* values : {&memory.pushes, &memory.anchors, &memory.known, &memory.loads, &memory.calm,
                                &memory.walls, &memory.wallPushes})
         sensible = sensible && std::all_of(values->begin(), values->end(), finite4);
-    const size_t walls = 2 * size_t(ContactPlan::mostWalls) * memory.counts.size();
+    const size_t walls = 2 * size_t(ContactPlan::mostColliders) * memory.counts.size();
     sensible = sensible && (memory.walls.empty() || memory.walls.size() == walls);
     if (!sensible) throw Error(location, "nothing can go on from it: its contacts make no sense");
 }

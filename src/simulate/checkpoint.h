@@ -12,7 +12,7 @@
 //          emitters' clocks (f64, u64); born, lost (u64)
 //          with an allocator on the CPU: when each place is free (f64); stack: its free places (u32)
 //          of a school: what steers (12 f32 a molecule)
-//          and what contacts remember (simulate/contact_memory.h): counts (u32 a sphere); partners (u32),
+//          and what contacts remember (simulate/contact/memory.h): counts (u32 a sphere); partners (u32),
 //          pushes, anchors (4 f32) of all contacts; known, loads (4 f32 a sphere); colliders
 //          u64 checksum of the body
 //

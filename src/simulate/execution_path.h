@@ -12,7 +12,7 @@
 
 #include "compile/path.h"
 #include "gpu/pass_timers.h"
-#include "simulate/contact_memory.h"
+#include "simulate/contact/memory.h"
 
 namespace shoal {
 

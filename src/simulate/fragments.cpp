@@ -12,13 +12,14 @@ using gpu::Program;
 class Fragments::Touched : public ContactState {
   public:
     explicit Touched(Fragments& path) : path_(&path) {}
-    bool fused() const override { return true; }
+    Form form() const override { return Form::textures; }
     std::vector<std::string> defines(size_t group) const override {
         std::vector<std::string> out = path_->plan_->groups[group].layout().defines(true);
         if (path_->state[group].hasConstants()) out.emplace_back("CONSTANTS");
         return out;
     }
-    void bind(const Program& program, size_t group) override {
+    std::vector<Part> parts(size_t group) const override { return {{0, path_->plan_->groups[group].count}}; }
+    void bind(const Program& program, size_t group, size_t) override {
         const GroupLayers& layers = path_->state[group];
         if (program.uses("oldState")) program.texture("oldState", layers.state());
         if (program.uses("oldRecords")) program.texture("oldRecords", layers.records());
@@ -65,7 +66,7 @@ Fragments::Fragments(gpu::Context& context, const Plan& plan, const Tables& tabl
     }
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
-        contact_ = std::make_unique<TextureContact>(context, plan, tables, *contactState_);
+        contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_);
     }
     if (plan.school.any()) school_ = std::make_unique<TextureSchool>(context, plan, tables);
     if (plan.hasLife()) births_ = std::make_unique<TextureBirths>(context, plan, tables, targets);
@@ -114,7 +115,7 @@ void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
         const Frame piece = pieceOf(frame, i, pieces_);
         run(piece, timers);
         if (births_) births_->step(piece, state, timers);
-        if (contact_) contact_->step(piece, *contactState_, timers);
+        if (contact_) contact_->step(piece, timers);
     }
     computeNormals(timers);
     if (query_) watch(timers);

@@ -10,13 +10,13 @@
 #include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/contact/contact.h"
 #include "simulate/execution_path.h"
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
 #include "simulate/school.h"
 #include "simulate/state_view.h"
 #include "simulate/texture_births.h"
-#include "simulate/texture_contact.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -81,7 +81,7 @@ class Fragments : public ExecutionPath {
     double steeringEnd_ = 0;                 // s, of the frame
     std::unique_ptr<TextureBirths> births_;  // null: none is born and none dies
     std::unique_ptr<ContactState> contactState_;
-    std::unique_ptr<TextureContact> contact_;  // null: there is none
+    std::unique_ptr<Contact> contact_;  // null: there is none
 };
 
 }  // namespace shoal

@@ -21,6 +21,35 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
     return out;
 }
 
+// How contact reads the buffers, and changes them.
+class Fused::Touched : public ContactState {
+  public:
+    explicit Touched(Fused& path) : path_(&path) {}
+    Form form() const override { return Form::buffers; }
+    std::vector<std::string> defines(size_t group) const override {
+        std::vector<std::string> out = path_->plan_->groups[group].layout().defines();
+        if (path_->state[group].hasConstants()) out.emplace_back("CONSTANTS");
+        return out;
+    }
+    std::vector<Part> parts(size_t group) const override {
+        std::vector<Part> out;
+        for (const GroupBuffers::Part& part : path_->state[group].parts())
+            out.push_back({part.first, part.count});
+        return out;
+    }
+    void bind(const Program& program, size_t group, size_t index) override {
+        const GroupBuffers& buffers = path_->state[group];
+        const GroupBuffers::Part& part = buffers.parts()[index];
+        if (program.uses("oldState")) program.texture("oldState", buffers.oldState(part));
+        if (program.uses("oldRecords")) program.texture("oldRecords", part.record);
+        if (program.uses("constants")) program.texture("constants", part.constant);
+        if (program.declares("State")) store(program, "State", buffers.currentState(part));
+    }
+
+  private:
+    Fused* path_;
+};
+
 Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options)
     : plan_(&plan), drawn_(options.drawn) {
     const gpu::ContextInfo& info = context.info();
@@ -61,7 +90,10 @@ Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, cons
     if (plan.hasLife())
         births_ = std::make_unique<Births>(context, plan, tables, state, together,
                                            atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)));
-    if (plan.contact.any()) contact_ = std::make_unique<MoleculeContact>(context, plan, tables, options);
+    if (plan.contact.any()) {
+        contactState_ = std::make_unique<Touched>(*this);
+        contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_, options.asOnGpu);
+    }
     if (plan.school.any()) school_ = std::make_unique<BufferSchool>(context, plan, tables);
 }
 
@@ -75,7 +107,7 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
     if (buffers.hasConstants()) program.texture("constants", part.constant);
     kernels_[index]->bindTables(program);
     const bool steps = work == KernelOptions::Work::frame;
-    if (contact_ && steps) contact_->bindLoads(program, index, part);
+    if (contact_ && steps) contact_->bindLoads(program, index, part.first);
     if (group.needs.steers && steps) program.texture("steering", part.steering);
     store(program, "NewState", buffers.newState(part));
     if (group.needs.records) store(program, "NewRecords", buffers.records(part));
@@ -98,7 +130,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         if (contact_) contact_->begin(piece);
         run(piece, timers);
         if (births_) births_->step(piece, state, timers);
-        if (contact_) contact_->step(piece, state, timers);
+        if (contact_) contact_->step(piece, timers);
     }
     if (alarm_) alarm_->endFrame(frame.number);
     if (contact_ || births_) computeNormals(timers);

@@ -1,7 +1,7 @@
 // The fused path (OpenGL 4.3): one dispatch a group and frame. Each molecule is read once, runs all substeps
 // of the frame in the registers of a lane (or the shared memory of a workgroup), and is written once, with
 // its normals where something is drawn. Contact between molecules cuts the frame into contact steps: a
-// dispatch of some of its substeps, then the passes of contact (simulate/molecule_contact.h).
+// dispatch of some of its substeps, then the passes of contact (simulate/contact/contact.h).
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@
 #include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "simulate/births.h"
+#include "simulate/contact/contact.h"
 #include "simulate/execution_path.h"
 #include "simulate/group_kernel.h"
-#include "simulate/molecule_contact.h"
 #include "simulate/school.h"
 #include "simulate/state_view.h"
 #include "simulate/watchdog.h"
@@ -57,6 +57,7 @@ class Fused : public ExecutionPath {
     std::vector<GroupBuffers> state;  // per group
 
   private:
+    class Touched;
     void run(const Frame& frame, gpu::PassTimers& timers);
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part,
                   KernelOptions::Work work) const;
@@ -69,10 +70,11 @@ class Fused : public ExecutionPath {
     std::vector<std::unique_ptr<GroupKernel>> kernels_;  // per group, as the next
     std::vector<const gpu::Program*> normals_;           // null: there are none
     std::optional<RunawayWord> alarm_;                   // where watched
-    std::unique_ptr<MoleculeContact> contact_;           // null: there is none
-    std::unique_ptr<Births> births_;                     // null: none is born and none dies
-    std::unique_ptr<BufferSchool> school_;               // null: none steers
-    double steeringEnd_ = 0;                             // s, of the frame
+    std::unique_ptr<ContactState> contactState_;
+    std::unique_ptr<Contact> contact_;      // null: there is none
+    std::unique_ptr<Births> births_;        // null: none is born and none dies
+    std::unique_ptr<BufferSchool> school_;  // null: none steers
+    double steeringEnd_ = 0;                // s, of the frame
 };
 
 // Returns a context's limits, for compile/path.h.

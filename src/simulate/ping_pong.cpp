@@ -56,7 +56,7 @@ class VertexTexels : public ContactState {
             const GroupPlan& group = plan.groups[contact.group];
             gpu::ProgramOptions options;
             options.vertex = "passes/fullscreen.vert";
-            options.fragment = "contact/apply.frag";
+            options.fragment = "passes/touched.frag";
             options.defines = {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())};
             if (group.needs.pins) options.defines.emplace_back("PINS");
             if (group.needs.release) options.defines.emplace_back("RELEASE");
@@ -64,10 +64,13 @@ class VertexTexels : public ContactState {
             apply_[contact.group] = Program(context, options);
         }
     }
+    Form form() const override { return Form::textures; }
     bool fused() const override { return false; }
     std::vector<std::string> defines(size_t) const override { return {}; }
-    void bind(const Program& program, size_t group) override {
+    std::vector<Part> parts(size_t group) const override { return {{0, plan_->groups[group].count}}; }
+    void bind(const Program& program, size_t group, size_t) override {
         setGroup(program, plan_->groups[group]);
+        if (program.uses("topology")) program.texture("topology", tables_->topology);
         program.texture("positions", state_->position.read(group));
         program.texture("velocities", state_->velocity.read(group));
         program.texture("records", state_->record.read(group));
@@ -77,8 +80,7 @@ class VertexTexels : public ContactState {
         const TextureLayout& at = plan_->groups[group].texture;
         const Program& program = apply_[group];
         program.use();
-        bind(program, group);
-        program.texture("topology", tables_->topology);
+        bind(program, group, 0);
         gains(program);
         const gpu::Framebuffer& target =
             state_->target({&state_->position.write(group), &state_->velocity.write(group)});
@@ -128,7 +130,7 @@ PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables
     }
     if (!plan.contact.any()) return;
     contactState_ = std::make_unique<VertexTexels>(context, plan, tables, state);
-    contact_ = std::make_unique<TextureContact>(context, plan, tables, *contactState_);
+    contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_);
 }
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {
@@ -157,7 +159,7 @@ void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         runSubsteps(piece, timers);  // contact moves what springs had been evaluated at
-        if (contact_) contact_->step(piece, *contactState_, timers);
+        if (contact_) contact_->step(piece, timers);
     }
     if (drawn_)
         run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame},

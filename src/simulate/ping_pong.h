@@ -1,7 +1,7 @@
 // The ping-pong path (OpenGL 3.3): fragment passes over state textures, read one side, draw into the other,
 // swap. Layout: simulate/texture_state.h. The passes of a frame: Plan::passes. Contact between molecules cuts
 // the frame into contact steps: some of its substeps, then the passes of contact
-// (simulate/texture_contact.h).
+// (simulate/contact/contact.h).
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 #include "gpu/gl.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/contact/contact.h"
 #include "simulate/execution_path.h"
 #include "simulate/state_view.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
-#include "simulate/texture_contact.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -90,7 +90,7 @@ class PingPong : public ExecutionPath {
     std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
     std::unique_ptr<RunawayQuery> query_;                       // null: not watched
     std::unique_ptr<ContactState> contactState_;
-    std::unique_ptr<TextureContact> contact_;  // null: there is none
+    std::unique_ptr<Contact> contact_;  // null: there is none
 };
 
 }  // namespace shoal

@@ -39,6 +39,7 @@ class RadixSort {
 
     size_t capacity() const { return capacity_; }
     int passes(size_t count, int keyBits) const;  // over the data; 0: there is nothing to do
+    size_t bytes() const { return other_.bytes() + counts_.bytes() + totals_.bytes(); }  // its own
 
   private:
     struct Pass {

@@ -6,7 +6,6 @@
 #include "gl/gl_test.h"
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
-#include "gpu/named_arrays.h"
 #include "gpu/program.h"
 #include "support/catch.h"
 #include "support/end_of.h"
@@ -124,42 +123,6 @@ TEST_CASE("a compute program reads a part of a buffer as a texture", "[compute]"
         CHECK(found[size_t(i)] == float(1111 * 4 * i + 3210));
     CHECK(found[texels] == -1.0f);  // the texture ends there
     testContext().checkErrors("a buffer texture");
-}
-
-TEST_CASE("a program is given the arrays that it declares", "[compute]") {
-    if (!hasCompute()) return;
-    const Program program(
-        testContext(),
-        computing("layout(local_size_x = 64) in;\n"
-                  "layout(std430) writeonly buffer Sums { float sums[]; };\n"
-                  "layout(std430) buffer Totals { float totals[]; };\n"
-                  "uniform samplerBuffer places;\n"
-                  "uniform usamplerBuffer keys;\n"
-                  "void main() {\n"
-                  "    if (gl_GlobalInvocationID.x > 0u) return;\n"
-                  "    sums[0] = texelFetch(places, 0).y + float(texelFetch(keys, 1).x) + totals[1];\n"
-                  "    totals[1] = 7.0;\n"
-                  "}\n"));
-    const float first[] = {1, 2, 3, 4}, total[] = {10, 20};
-    const uint32_t numbers[] = {100, 300};
-    const Array places(testContext(), 1, Texel::float4, "places", first),
-        keys(testContext(), 2, Texel::uint1, "keys", numbers), sums(testContext(), 4, Texel::float4, "sums"),
-        empty;
-    const Buffer totals(testContext(), Buffer::Use::storage, std::span<const float>(total), "totals");
-    NamedArrays arrays;
-    arrays.add("places", places);
-    arrays.add("keys", keys);
-    arrays.add("alsoKeys", keys);
-    arrays.add("sums", sums);
-    arrays.add("totals", totals);
-    arrays.add("unread", empty);
-    program.use();
-    arrays.bind(program);
-    program.dispatch(1);
-    CHECK(floats(sums.buffer, 0, 1) == std::vector<float>{322});
-    CHECK(floats(totals, 0, 2) == std::vector<float>{10, 7});
-    CHECK(arrays.bytes() == 16 + 8 + 64 + 8);  // each once
-    testContext().checkErrors("arrays");
 }
 
 TEST_CASE("a program that lacks what it reads ends with its name", "[compute]") {

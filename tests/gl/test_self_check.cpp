@@ -37,12 +37,11 @@ TEST_CASE("a path that computes wrongly is told of, kept by driver and shaders, 
     test::Scratch scratch;
     const std::string usual = testContext().shaders();
     std::filesystem::copy(usual, scratch.path("shaders"), std::filesystem::copy_options::recursive);
-    const std::string file = scratch.path("shaders/contact/prepare.frag");
+    const std::string file = scratch.path("shaders/contact/response/prepare.pass.glsl");
     std::string text = readFile(file);
-    const std::string kept = "newPushes = known;";
+    const std::string kept = "putNextImpulses(slot, e, firstPart(known));";
     REQUIRE(text.find(kept) != std::string::npos);
-    writeFile(file, text.replace(text.find(kept), kept.size(),
-                                 "for (int i = 0; i < ENTRIES_A_DRAW / 2; ++i) newPushes[i] = vec4(0.0);"));
+    writeFile(file, text.replace(text.find(kept), kept.size(), "putNextImpulses(slot, e, vec4(0.0));"));
     testContext().setShaders(scratch.path("shaders"));
     const gpu::OtherCache cache(testContext(), scratch.path("cache"));
     const auto wrong = [](Path path) { return selfCheck(testContext(), path, CheckedPart::contact); };

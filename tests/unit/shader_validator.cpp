@@ -1,5 +1,7 @@
 #include "unit/shader_validator.h"
 
+#include <optional>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +9,7 @@
 #include "compile/contact_plan.h"
 #include "compile/generate.h"
 #include "compile/generate_forces.h"
+#include "gpu/array_table.h"
 #include "scene/field_kinds.h"
 #include "support/catch.h"
 #include "support/every_kind.h"
@@ -58,8 +61,14 @@ std::string complaint(const std::string& file, const gpu::ShaderSource& source) 
 }
 
 void Validator::add(const std::string& file, const Defines& defines, const char* header) {
+    using Form = gpu::ArrayTable::Form;
+    const std::string root = std::string(SHOAL_SOURCE_DIR) + "/shaders";
+    std::optional<gpu::ArrayTable> table;
+    const bool compute = std::string_view(header) == gpu::header430();
+    if (!arrays.empty())
+        table.emplace(concat(root, "/", arrays, "/arrays.txt"), compute ? Form::buffers : Form::textures);
     add(file, defines, header,
-        gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, defines, generated, header));
+        gpu::resolveShader(root, file, defines, generated, header, table ? &*table : nullptr));
 }
 
 void Validator::addKernel(const Plan& plan, const KernelOptions& options) {
@@ -130,7 +139,8 @@ void Validator::check() const {
 void Validator::add(const std::string& file, const Defines& defines, const char* header,
                     gpu::ShaderSource source) {
     if (!seen_.insert(source.text).second) return;
-    const std::string stage = file.substr(file.rfind('.'));
+    std::string stage = file.substr(file.rfind('.'));
+    if (stage == ".glsl") stage = std::string_view(header) == gpu::header430() ? ".comp" : ".frag";
     const std::string path = scratch_.write("shader" + std::to_string(seen_.size()) + stage, source.text);
     std::string what =
         file + " as " + std::string(header).substr(0, std::string(header).find('\n')) + ", defines:";

@@ -28,6 +28,7 @@ std::string complaint(const std::string& file, const gpu::ShaderSource& source);
 class Validator {
   public:
     std::map<std::string, std::string> generated;
+    std::string arrays;  // the folder of shaders whose table of arrays they name; empty: none
 
     void add(const std::string& file, const Defines& defines, const char* header);
     void addKernel(const Plan& plan, const KernelOptions& options);

@@ -145,7 +145,9 @@ TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
     for (const char* file : {"sort/odd_even_merge.frag", "sort/bitonic.frag"})
         validator.addBoth(file, {});
     validator.addBoth("sort/bitonic.frag", {"TIES_BY_INDEX"});
-    validator.addBoth("sort/starts.frag", {"ROW_BITS 4"});
+    validator.arrays = "contact";
+    validator.addBoth("sort/starts.pass.glsl", {"ROW_BITS 4"});
+    validator.arrays.clear();
     const Defines sizes = {"LANES 256", "MOST_DIGITS 2048", "TILE_PAIRS 2048"};
     for (const char* file : {"sort/pieces_count.comp", "sort/pieces_scan.comp", "sort/pieces_scatter.comp",
                              "sort/tiles_count.comp", "sort/tiles_scan.comp", "sort/tiles_scatter.comp"})
@@ -208,45 +210,57 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
     validator.generated = generate({}, collidersToValidate());
+    validator.arrays = "contact";
     const Defines common{"LIST 24",
                          "NEIGHBORS 4",
                          concat("NEAR ", ContactPlan::near),
-                         concat("MOST_WALLS ", ContactPlan::mostWalls),
+                         concat("MOST_COLLIDERS ", ContactPlan::mostColliders),
                          "REMEMBERS",
                          "BLOCK 16",
                          "POSITION_ELEMENTS 3",
                          "VERTICES 4",
                          "SPHERES 6",
                          "HISTORY",
-                         "NO_HISTORY 1e30"};
-    const auto add = [&](const char* file, const Defines& set, Defines more = {}) {
+                         "NO_HISTORY 1e30",
+                         "LANES 256",
+                         "CELL_TILE 1024",
+                         "LINE_WORDS 32"};
+    const auto add = [&](const std::string& file, const Defines& set, Defines more = {}) {
         more.insert(more.end(), set.begin(), set.end());
         more.insert(more.end(), common.begin(), common.end());
         more.emplace_back("STATE_ELEMENTS 12");
-        validator.add(concat("contact/", file, ".comp"), more, gpu::header430());
+        validator.add(concat("contact/", file, ".pass.glsl"), more, gpu::header430());
     };
+    for (const Defines& set : combinations({"COUNTED", "RESTING", "STAGGERED"})) {
+        add("grid/order", set);
+        add("grid/spheres", set);
+    }
+    for (const char* file : {"grid/starts", "grid/members"})
+        add(file, {"COUNTED"});
+    for (const Defines& set : combinations({"SECOND_GRID", "SWEPT"}))
+        add("search/neighbors", set, {"STAGGERED"});
     for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
-        for (const char* file : {"order", "find", "prepare", "relax", "settle"})
-            add(file, set);
-        for (const Defines& spread : {Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}})
-            for (const char* file : {"prepare", "relax", "settle"})
-                add(file, set, spread);
-        for (const Defines& first :
-             {Defines{"FIRST"}, Defines{"FIRST", "SPREAD"}, Defines{"FIRST", "SPREAD", "BODIES"}})
-            add("relax", set, first);
+        add("search/find", set);
+        for (const Defines& spread : {Defines{}, Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}}) {
+            for (const char* file : {"prepare", "solve", "store"})
+                add(concat("response/", file), set, spread);
+            Defines first = spread;
+            first.emplace_back("FIRST");
+            add("response/solve", set, first);
+        }
     }
     for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {
-        for (const char* file : {"sift", "wake", "weigh", "rest"})
-            add(file, set, {"RESTING"});
-        add("find", set, {"RESTING", "AMONG_RESTING"});
+        for (const char* file : {"awake", "wake", "load_change", "rest"})
+            add(concat("rest/", file), set, {"RESTING"});
+        add("search/find", set, {"RESTING", "AMONG_RESTING"});
     }
     for (const Defines& set : combinations({"RESTING", "TRIANGLES", "RIGID", "LIFE"})) {
-        for (const char* file : {"spheres", "effective_sum", "spread"})
-            add(file, set);
-        add("apply", set, {"APPLIES", "MANY"});
+        for (const char* file : {"grid/spheres", "response/effective_sum", "response/velocities"})
+            add(file, set, {"BODIES"});
+        add("response/apply", set, {"APPLIES", "MANY", "BODIES"});
     }
-    add("apply", {"RESTING"}, {"APPLIES"});
-    CHECK(validator.count() > 70);
+    add("response/apply", {"RESTING"}, {"APPLIES"});
+    CHECK(validator.count() > 80);
     validator.check();
 }
 
@@ -261,6 +275,7 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     scene.groups = {group};
     const Plan plan = compile(scene);
     Validator validator;
+    validator.arrays = "school";
     validator.generated["generated/body.glsl"] = plan.school.bodies.at(0).text;
     std::vector<glm::vec4> samples;
     validator.generated["generated/colliders.glsl"] =
@@ -269,19 +284,19 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
         set.insert(set.end(), {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "GRIDS 3"});
         Defines compute = set, fragments = set;
         compute.emplace_back("BLOCK 16");
-        validator.add("school/" + name + ".comp", compute, gpu::header430());
+        validator.add("school/" + name + ".pass.glsl", compute, gpu::header430());
         fragments.insert(fragments.end(), {"ROW_BITS 4", "LAYERED", "STATE_WIDTH 1024"});
-        validator.addBoth("school/" + name + ".frag", fragments);
+        validator.addBoth("school/" + name + ".pass.glsl", fragments);
     };
     addBothForms("keys", {});
     addBothForms("order", {});
-    validator.addBoth("school/steered.frag",
+    validator.addBoth("school/steered.pass.glsl",
                       {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "ROW_BITS 4", "STATE_WIDTH 1024"});
     for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
                                Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
         Defines sizes = {"POSITION_ELEMENTS 2"};
         sizes.insert(sizes.end(), set.begin(), set.end());
-        addBothForms("body", sizes);
+        addBothForms("bodies", sizes);
     }
     for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2"}, Defines{"TARGETS 1", "WALLS"}}) {
         Defines all = {"CLOCK_PERIOD float(0.25)", "POSITION_ELEMENTS 2", "STATE_ELEMENTS 4"};

@@ -55,31 +55,38 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const Defines& set : combinations({"LEAPFROG", "DIRECTIONAL_DRAG", "SPRINGS"}))
         validator.addBoth("passes/normals.frag", set);
     validator.addBoth("passes/watch.frag", {fastestDefine()});
-    const Defines textures{"ROW_BITS 6",
-                           "LIST 24",
-                           "NEIGHBORS 4",
-                           concat("NEAR ", ContactPlan::near),
-                           concat("MOST_WALLS ", ContactPlan::mostWalls),
-                           "ENTRIES_A_DRAW 8"};
-    const auto contact = [&](const char* file, Defines set = {}) {
-        set.insert(set.end(), textures.begin(), textures.end());
-        validator.addBoth(std::string("contact/") + file + ".frag", set);
+    CHECK(validator.count() > 20);
+    validator.check();
+}
+
+TEST_CASE("the passes of contact in fragments are sound in desktop and in embedded GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    validator.generated = generate({}, collidersToValidate());
+    validator.addBoth("passes/touched.frag", {"ROW_BITS 6"});
+    validator.addBoth("passes/touched.frag", {"ROW_BITS 6", "PINS", "RELEASE"});
+    validator.arrays = "contact";
+    const auto add = [&](const char* file, Defines set = {}) {
+        set.insert(set.end(), {"ROW_BITS 6", "LIST 24", "NEIGHBORS 4", concat("NEAR ", ContactPlan::near),
+                               concat("MOST_COLLIDERS ", ContactPlan::mostColliders)});
+        validator.addBoth(concat("contact/", file, ".pass.glsl"), set);
     };
-    for (const char* file : {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "apply"})
-        contact(file);
-    for (const char* file : {"spheres", "apply"})
-        contact(file, {"PINS", "RELEASE"});
+    for (const char* file :
+         {"grid/keys", "grid/order", "grid/slots", "search/find", "search/neighbors", "response/nearest"})
+        add(file);
+    add("grid/spheres", {"SPHERES 4"});
+    add("grid/spheres", {"SPHERES 4", "PINS", "RELEASE"});
     for (Defines set : combinations({"SELF", "STAGGERED", "SWEPT", "WALLS"})) {
         set.emplace_back("REMEMBERS");
-        for (const char* file : {"order", "slots", "find", "neighbors"})
-            contact(file, set);
+        for (const char* file : {"search/find", "search/neighbors"})
+            add(file, set);
     }
     for (const Defines& spread : {Defines{}, Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}}) {
-        for (Defines set : combinations({"WALLS"})) {
+        for (Defines set : combinations({"WALLS", "ENTRIES"})) {
             set.insert(set.end(), spread.begin(), spread.end());
             set.emplace_back("REMEMBERS");
-            for (const char* file : {"prepare", "prepare_sums", "constrain", "relax", "relax_sums", "settle"})
-                contact(file, set);
+            for (const char* file : {"prepare", "constrain", "solve", "store"})
+                add(concat("response/", file).c_str(), set);
         }
     }
     const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
@@ -89,16 +96,17 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         set.insert(set.end(), sizes.begin(), sizes.end());
         Defines walls = set;
         walls.insert(walls.end(), {"WALLS", "CONTACT_RADIUS 0.1"});
-        contact("walls", walls);
+        if (rigid) walls.emplace_back("BODIES");
+        add("grid/colliders", walls);
         if (rigid) set.emplace_back("BODIES");
-        for (const char* file : {"spheres", "effective_sum", "spread"})
-            contact(file, set);
+        for (const char* file : {"grid/spheres", "response/effective_sum", "response/velocities"})
+            add(file, set);
         set.emplace_back("APPLIES");
-        contact("gains", set);
+        add("response/gains", set);
         set.emplace_back("MANY");
-        contact("gains", set);
+        add("response/gains", set);
     }
-    CHECK(validator.count() > 120);
+    CHECK(validator.count() > 90);
     validator.check();
 }
 
@@ -242,7 +250,7 @@ TEST_CASE("no shader masks out a sign bit before it compares with 0", "[shaders]
         for (std::sregex_iterator at(text.begin(), text.end(), signBit), end; at != end; ++at)
             signs.insert((*at)[1]);
     }
-    CHECK(signs.contains("FRESH"));
+    CHECK(signs.contains("FLAG"));
     for (const auto& file : files) {
         const std::string text = readFile(file);
         for (std::sregex_iterator at(text.begin(), text.end(), compared), end; at != end; ++at) {

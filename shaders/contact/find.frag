@@ -1,3 +1,0 @@
-// find: all spheres that a slot touches.
-#include "contact/search.glsl"
-#include "contact/found.glsl"

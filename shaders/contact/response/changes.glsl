@@ -1,0 +1,168 @@
+// Totals by slot become changes of the spheres of a molecule, of which each may move others, because they lie on triangles of the same
+// vertices or on a rigid body (RIGID).
+#include "contact/grid/shape.glsl"
+#include "contact/flags.glsl"
+#pragma reads slots counts totals
+#ifdef APPLIES
+#pragma reads warmStart
+#else
+#pragma reads earlierTotals
+
+uniform float momentum;  // contact/response/solve.pass.glsl
+#endif
+uniform VALUES oldRecords;
+
+int moleculeSphere(int molecule)
+{
+    return firstSphere + molecule * SPHERES;
+}
+
+int slotOf(int sphere)
+{
+    return int(slotsAt(sphere));
+}
+
+// What contacts do to a sphere, or the changes that this makes: m/s, m and m/s.
+struct Total {
+    vec3 impulse;  // N s
+    vec3 shift;    // kg m
+    vec3 load;     // N s, over the next step
+};
+
+Total noTotal()
+{
+    return Total(vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+// Adds so large a part of b.
+void add(inout Total a, Total b, float part)
+{
+    a.impulse += b.impulse * part;
+    a.shift += b.shift * part;
+    a.load += b.load * part;
+}
+
+#ifdef APPLIES
+#ifdef RIGID
+#include "contact/rest/states.glsl"
+#pragma reads cells effectiveCounts
+#ifdef TEXTURES
+#pragma reads motions
+
+vec3 velocityBefore(int sphere)
+{
+    return uintBitsToFloat(motionsAt(slotOf(sphere)).xyz);
+}
+#else
+#pragma reads sphereMotions
+
+vec3 velocityBefore(int sphere)
+{
+    return uintBitsToFloat(sphereMotionsAt(sphere).xyz);
+}
+#endif
+
+// Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
+// reaches none that is not known as near (contact/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
+bool holds(int sphere, vec3 changed, float stepTime)
+{
+    int slot = slotOf(sphere);
+    return uintBitsToFloat(effectiveCountsAt(slot)) > 0.0 &&
+           length(velocityBefore(sphere) + changed) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
+}
+#endif
+
+// Returns the load on a sphere's vertex over the next step (contact/arrays.txt).
+vec4 loadOf(int sphere, Total change, float stepTime)
+{
+#ifdef RIGID
+    if (holds(sphere, change.impulse, stepTime)) return vec4(change.load / stepTime, HELD_BY_CONTACT);
+#endif
+    return vec4(change.load / stepTime, 0.0);
+}
+#endif
+
+Total totalAt(int sphere)
+{
+    int slot = slotOf(sphere);
+    if (countsAt(slot) == 0u) return noTotal();
+    Total now = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
+#if defined(APPLIES) && defined(TEXTURES)
+    now.load = warmStartAt(slot).xyz;
+#elif defined(APPLIES)
+    now.load = warmStartAt(sphere).xyz;
+#else
+    if (momentum != 0.0) {
+        now.impulse += (now.impulse - earlierTotalsAt(slot, 0).xyz) * momentum;
+        now.shift += (now.shift - earlierTotalsAt(slot, 1).xyz) * momentum;
+    }
+#endif
+    return now;
+}
+
+#ifdef RIGID
+#include "contact/response/body.glsl"
+
+// How they change a body.
+struct BodyTotal {
+    BodyMotion impulse;
+    BodyMotion shift;
+    BodyMotion load;
+};
+
+BodyTotal totalOfBody(int molecule)
+{
+    BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
+    BodyTotal sum = BodyTotal(none, none, none);
+    for (int k = 0; k < SPHERES; ++k) {
+        int sphere = moleculeSphere(molecule) + k;
+        Total total = totalAt(sphere);
+        BodySphere at = bodySphereAt(sphere);
+        add(sum.impulse, at, total.impulse);
+        add(sum.shift, at, total.shift);
+        add(sum.load, at, total.load);
+    }
+    return sum;
+}
+
+// Returns how that changes sphere k of its molecule.
+Total changeIn(BodyTotal body, int molecule, int k)
+{
+    BodySphere at = bodySphereAt(moleculeSphere(molecule) + k);
+#ifdef APPLIES
+    vec3 shift = wayAt(at, body.shift);
+#else
+    vec3 shift = motionAt(at, body.shift);
+#endif
+    return Total(motionAt(at, body.impulse), shift, motionAt(at, body.load));
+}
+
+// Returns how they change sphere k of a molecule.
+Total changeOf(int molecule, int k)
+{
+    return changeIn(totalOfBody(molecule), molecule, k);
+}
+#else
+// Returns how its own contacts and those of the triangles around it change a vertex.
+Total changeOfVertex(int vertex, int first, bool released)
+{
+    vec4 shape = shapeOf(vertex);
+    Total sum = totalAt(first + vertex);
+    for (int i = 0; i < int(shape.w); ++i) add(sum, totalAt(first + int(shapeOf(int(shape.z) + i).x)), 1.0 / 3.0);
+    Total change = noTotal();
+    add(change, sum, weightOf(shape, released));
+    return change;
+}
+
+// Returns how they change sphere k of a molecule.
+Total changeOf(int molecule, int k)
+{
+    int first = moleculeSphere(molecule);
+    bool released = valueOf(oldRecords, molecule).w < 0.0;
+    vec4 shape = shapeOf(k);
+    if (k < VERTICES) return changeOfVertex(k, first, released);
+    Total change = noTotal();
+    for (int c = 0; c < 3; ++c) add(change, changeOfVertex(int(shape[c]), first, released), 1.0 / 3.0);
+    return change;
+}
+#endif

@@ -1,0 +1,194 @@
+// The contacts of a slot, pair by pair, for the stages of the response (docs/contact.md):
+//
+//   prepare   the impulse with which each contact begins, and how many contacts act together
+//   solve     one Jacobi iteration of all impulses, friction among them, and of what pushes overlaps apart
+//   store     how far the contacts move the spheres, and what they remember for the next step
+//
+// What contacts remember acts as a force over the step that follows (contact/response/apply.pass.glsl), so that what rests is at rest for
+// any solver; the response finds only what is missing. A contact is an entry of both spheres' lists. Both work out the same for it,
+// to the bit, from the same numbers: only gathers.
+#include "contact/search/responding.glsl"
+#include "contact/slots.glsl"
+#include "contact/rest/resting.glsl"
+#include "contact/response/impulse.glsl"
+#include "physics/pair.glsl"
+#pragma reads counts lists materials
+
+uniform int groupCount;
+uniform float stepTime;   // s, of a contact step
+uniform float restSpeed;  // m/s
+
+struct Sphere {
+    vec3 place;     // m, local (physics/cells.glsl)
+    uint label;     // group * 2^26 + molecule
+    vec3 velocity;  // m/s, before the response
+    float weight;   // 1/kg, 0 where held
+    float radius;   // m
+    bool fresh;     // its molecule has been born since the last step
+    bool rests;     // its molecule does: nothing moves it
+};
+
+Sphere sphereAt(int slot)
+{
+    uvec4 place = placesAt(slot);
+    uvec4 motion = motionAt(slot);
+    bool stays = rests(slot);
+    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
+                  radiusAt(slot), hasFlag(motion.w), stays);
+}
+
+vec2 materialOf(Sphere a, Sphere b)
+{
+    return materialsAt(int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
+}
+
+int listedOf(int slot)
+{
+    return listedIn(countsAt(slot));
+}
+
+// Whether the list of a slot holds another: one that is full may not, and then neither takes the contact.
+bool holds(int slot, int other)
+{
+    int listed = int(countsAt(slot) & CONTACTS);
+    bool found = listed <= LIST;
+    int e = found ? LIST : 0;
+    while (e < LIST) {
+        found = found || int(listsAt(slot, e)) == other;
+        ++e;
+    }
+    return found;
+}
+
+#ifdef BODIES
+#include "contact/response/body.glsl"
+
+// Returns zeros for a sphere that gives way alone or not at all.
+BodySphere bodyOf(int slot, Sphere sphere)
+{
+    if (sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    return bodySphereAt(sphereOf(slot));
+}
+#endif
+
+struct Pair {
+    Sphere sphere;  // the other
+    vec3 apart;     // m, from its centre to this one's
+    PairContact contact;
+    bool meets;     // both lists hold it, or the other sphere rests and has none; and one of the two is free
+    vec2 material;  // x restitution, y friction
+#ifdef BODIES
+    BodySphere body;
+#endif
+};
+
+Sphere own;
+#ifdef BODIES
+BodySphere ownBody;
+#endif
+
+void loadSphere(int slot)
+{
+    own = sphereAt(slot);
+#ifdef BODIES
+    ownBody = bodyOf(slot, own);
+#endif
+}
+
+#ifdef BODIES
+vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
+{
+    vec3 across = cross(body.arm, n);
+    float turning = dot(across, body.perInertia * across);
+    return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
+}
+#endif
+
+// Returns what an impulse of 1 N s on this sphere changes of its velocity, 1/kg: x along the unit vector n, y across it, or more.
+vec2 ownWeights(vec3 n)
+{
+#ifdef BODIES
+    return weightsOf(own, ownBody, n);
+#else
+    return vec2(own.weight);
+#endif
+}
+
+#pragma reads effectiveCounts
+
+// The effective number of contacts (physics/pair.glsl) by which a sphere's Jacobi step is divided: 1 for a resting sphere, whose 1/mass is
+// 0; 0 where neither it nor its body touches another.
+float effectiveCountOf(int slot, Sphere sphere)
+{
+    return sphere.rests ? 1.0 : uintBitsToFloat(effectiveCountsAt(slot));
+}
+
+// Returns what it changes of the two spheres' relative velocity. `effective`: the effective counts of the two.
+vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
+{
+    vec2 other = vec2(pair.sphere.weight);
+#ifdef BODIES
+    other = weightsOf(pair.sphere, pair.body, n);
+#endif
+    return ownWeights(n) * effective.x + other * effective.y;
+}
+
+// `bounceFrom`: m/s; slower is no impact.
+Pair pairOf(int slot, int other, float bounceFrom)
+{
+    Pair pair;
+    pair.sphere = sphereAt(other);
+    pair.apart = localDifference(own.place, pair.sphere.place, cell);
+    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
+                               bounceFrom, slot < other ? 1.0 : -1.0);
+    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
+    pair.material = materialOf(own, pair.sphere);
+#ifdef BODIES
+    pair.body = bodyOf(other, pair.sphere);
+#endif
+    return pair;
+}
+
+// Returns how large an impulse may be that the next step begins with, N s, of one that began with `start` and is `now`. What has
+// stopped a fall is not what holds up what lies there, so memory takes in a tenth of what it has grown by, and where it carried
+// little not much more than a weight. With half of it, molecules deep in a pile are shaken by what is remembered of their many
+// contacts without balance. `weight`: 1/kg, of all that it moves.
+float mostRemembered(float start, float now, float weight)
+{
+    return min(start + 0.1 * max(now - start, 0.0), 1.5 * start + restSpeed / weight);
+}
+
+// Returns a contact's impulse as the next step begins with it.
+ContactImpulse remembered(ContactImpulse known, Sphere other)
+{
+    float now = length(known.impulse);
+    float most = known.kind == PERSISTENT ? mostRemembered(known.start, now, own.weight + other.weight) : 0.0;
+    known.impulse *= min(1.0, most / max(now, 1e-30));
+    if (known.kind == PERSISTENT) known.start = length(known.impulse);
+    return known;
+}
+
+bool isDeep(PairContact contact, float reach)
+{
+    return contact.depth > 0.25 * reach;
+}
+
+// Where spheres have sunk deep into one another, the way out is that by which they came in.
+void leaveAsCome(inout Pair pair, vec3 anchor)
+{
+    float reach = own.radius + pair.sphere.radius;
+    if (pair.contact.impact || !isDeep(pair.contact, reach)) return;
+    vec3 n = anchor / max(length(anchor), 1e-30);
+    pair.contact.normal = n;
+    pair.contact.depth = reach - dot(pair.apart, n);
+    pair.contact.speed = dot(own.velocity - pair.sphere.velocity, n);
+}
+
+// The pair of a contact that prepare() has begun.
+Pair pairAs(int slot, int other, ContactImpulse begun)
+{
+    Pair pair = pairOf(slot, other, begun.kind == PERSISTENT ? 1e30 : restSpeed);
+    pair.meets = pair.meets && begun.kind != NO_PART;
+    leaveAsCome(pair, begun.anchor);
+    return pair;
+}

@@ -1,0 +1,143 @@
+// The stage of contact/response/pair.glsl that is repeated: one Jacobi iteration of all impulses. In fragments a pass works out some impulses
+// (ENTRIES), and another the colliders' and the sums. With buffers the FIRST iteration also works out the constraints for all.
+#ifndef TEXTURES
+#pragma updates impulses earlierImpulses
+#ifdef WALLS
+#pragma updates colliderImpulses earlierColliderImpulses
+#endif
+#endif
+#include "contact/response/iteration.glsl"
+
+#ifdef ENTRIES
+#pragma reads normals weights
+#pragma writes nextImpulses
+
+void main()
+{
+    int slot = ownSlot(count);
+    int listed = listedOf(slot);
+    if (listed <= firstEntry) discard;
+    loadOwn(slot);
+    for (int i = 0; i < ENTRIES_A_DRAW; ++i) {
+        int e = firstEntry + i;
+        vec4 next = vec4(0.0);
+        if (e < listed)
+            next = solve(int(listsAt(slot, e)), constraintFrom(normalsAt(slot, e), weightsAt(slot, e)), impulsesAt(slot, e),
+                         earlierImpulsesAt(slot, e));
+        putNextImpulses(slot, e, next);
+    }
+    putEntries();
+}
+#else
+#ifdef FIRST
+#pragma reads anchors
+#pragma writes normals weights
+
+Constraint constraintOf(int slot, int e)
+{
+    int row = ownRow(slot);
+    Constraint made = constrain(slot, int(listsAt(slot, e)), impulseFrom(vec4(0.0), anchorsAt(row, e)));
+    putNormals(row, e, vec4(made.normal, made.target));
+    putWeights(row, e, vec4(made.weights, made.lacks, made.friction));
+    return made;
+}
+#else
+#pragma reads normals weights
+
+Constraint constraintOf(int slot, int e)
+{
+    return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
+}
+#endif
+
+// Returns the first part of a contact's impulse after the iteration, and its normal.
+vec4 solveEntry(int slot, int e, out vec3 normal)
+{
+    int row = ownRow(slot);
+#ifdef TEXTURES
+    normal = normalsAt(row, e).xyz;
+    return impulsesAt(row, e);
+#else
+    Constraint asked = constraintOf(slot, e);
+    normal = asked.normal;
+    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    putEarlierImpulses(row, e, next);  // these are the next from now on
+    return next;
+#endif
+}
+
+#pragma reads warmStart
+#pragma writes nextTotals
+#if !defined(TEXTURES) && !defined(SPREAD)
+#pragma writes nextVelocities
+
+uniform float nextMomentum;  // of the next iteration
+#endif
+
+#ifdef WALLS
+#include "contact/response/colliders.glsl"
+#ifdef TEXTURES
+#pragma reads colliderImpulses earlierColliderImpulses
+#pragma writes nextColliderImpulses
+#endif
+
+// Returns a collider's impulse after the iteration: a body of infinite mass, which does not ask whether it slides.
+vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
+{
+    if (ownCount <= 0.0) return vec4(0.0);
+    vec2 weights = stepWeights(ownWeights(near.normal) * ownCount, ownCount);
+    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
+                                  near.friction);
+    Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
+    return vec4(next.impulse, next.apart);
+}
+#endif
+
+void main()
+{
+    int slot = ownSlot(count);
+    if (slot < 0) return;
+    loadOwn(slot);
+    int listed = listedOf(slot);
+#ifdef TEXTURES
+    vec3 impulse = -warmStartAt(slot).xyz;
+#else
+    vec3 impulse = -warmStartAt(sphereOf(slot)).xyz;
+#endif
+    vec3 shift = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        vec3 normal;
+        vec4 push = solveEntry(slot, e, normal);
+        impulse += push.xyz;
+        shift += normal * abs(push.w);
+    }
+#ifdef WALLS
+    int row = colliderRow(slot);
+    vec4 next[MOST_COLLIDERS];
+    for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
+    for (int k = 0; k < MOST_COLLIDERS; ++k) {
+        NearCollider near = colliderOf(slot, k);
+        if (!pressesOn(near)) break;
+        vec4 now = colliderImpulsesAt(row, k);
+        next[k] = solveCollider(near, now, earlierColliderImpulsesAt(row, k));
+        impulse += next[k].xyz;
+        shift += near.normal * next[k].w;
+#ifndef TEXTURES
+        putEarlierColliderImpulses(row, k, now);
+        putColliderImpulses(row, k, next[k]);
+#endif
+    }
+#ifdef TEXTURES
+    putAllNextColliderImpulses(slot, next);
+#endif
+#endif
+    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
+    putNextTotals(slot, 1, vec4(shift, 0.0));
+#if !defined(TEXTURES) && !defined(SPREAD)
+    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
+    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
+    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+#endif
+}
+#endif

@@ -1,0 +1,94 @@
+// The last stage of contact/response/pair.glsl: how far the contacts move the spheres, and what they remember for the next step.
+#ifndef TEXTURES
+#ifdef WALLS
+#pragma updates colliderImpulses
+#endif
+#pragma updates totals
+#endif
+#include "contact/response/pair.glsl"
+#pragma reads impulses anchors totals
+#ifdef TEXTURES
+#pragma writes nextTotals warmStart
+#else
+#pragma writes partners oldImpulses oldAnchors warmStart memoryCounts
+#endif
+
+// Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
+// time since, what sticks back towards where it began to. `kept`: the contact's impulse as the next step begins with it.
+vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
+{
+    Pair pair = pairAs(slot, other, known);
+    vec3 n = pair.contact.normal;
+    kept = remembered(known, pair.sphere);
+    if (!pair.meets) return vec3(0.0);
+    if (pair.contact.impact) return known.impulse * pair.contact.since;
+    vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
+    vec3 slip = pair.apart - known.anchor;
+    slip -= n * dot(slip, n);
+    float most = 0.002 * (own.radius + pair.sphere.radius);
+    float back = min(1.0, most / max(length(slip), 1e-30)) / weightsBetween(pair, n, effective).y;
+    return known.sticks ? -slip * back : vec3(0.0);
+}
+
+#ifdef WALLS
+#include "contact/response/colliders.glsl"
+#pragma reads colliderImpulses
+#ifndef TEXTURES
+#pragma writes oldNormals
+#endif
+
+// Returns which part of what colliders push the next step begins with. Both sums are of the impulses' lengths, N s.
+float rememberedOfColliders(float start, float now)
+{
+    return own.weight > 0.0 ? min(1.0, mostRemembered(start, now, own.weight) / max(now, 1e-30)) : 0.0;
+}
+#endif
+
+void main()
+{
+    int slot = ownSlot(count);
+    if (slot < 0) return;
+    loadSphere(slot);
+    int sphere = sphereOf(slot);
+    int row = ownRow(slot);
+    int listed = listedOf(slot);
+    vec4 total = totalsAt(slot, 0);
+    vec3 shift = totalsAt(slot, 1).xyz;
+    vec3 keeps = vec3(0.0);
+    float part = 1.0;  // of what colliders push
+    bool isHeld = false;
+    for (int e = 0; e < listed; ++e) {
+        int other = int(listsAt(slot, e));
+        ContactImpulse kept;
+        shift += store(slot, other, impulseFrom(impulsesAt(row, e), anchorsAt(row, e)), kept);
+        keeps += kept.impulse;
+#ifndef TEXTURES
+        putPartners(sphere, e, uint(sphereOf(other)));
+        putOldImpulses(sphere, e, firstPart(kept));
+        putOldAnchors(sphere, e, secondPart(kept));
+#endif
+    }
+#ifdef WALLS
+    int memory = colliderRow(slot);
+    float now = 0.0;
+    for (int k = 0; k < MOST_COLLIDERS; ++k) now += length(colliderImpulsesAt(memory, k).xyz);
+    part = rememberedOfColliders(total.w, now);
+    for (int k = 0; k < MOST_COLLIDERS; ++k) {
+        vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
+        keeps += push.xyz;
+        isHeld = isHeld || push != vec4(0.0);
+#ifndef TEXTURES
+        putColliderImpulses(memory, k, push);
+        putOldNormals(memory, k, vec4(colliderOf(slot, k).normal, 0.0));
+#endif
+    }
+#endif
+#ifdef TEXTURES
+    putNextTotals(slot, 0, vec4(total.xyz, 0.0));
+    putNextTotals(slot, 1, vec4(shift, 0.0));
+#else
+    putTotals(slot, 1, vec4(shift, 0.0));
+    putMemoryCounts(sphere, uint(listed) | (isHeld ? HELD : 0u));
+#endif
+    putWarmStart(sphere, vec4(keeps, part));
+}

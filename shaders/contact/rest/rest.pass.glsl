@@ -1,0 +1,116 @@
+// A lane a molecule: whether it rests. It comes to rest when none of its vertices has got further than restDistance from where it
+// was for restTime. Then it stays as it is: nothing steps it, and to contact it is of infinite mass. What wakes it is an impact
+// (contact/rest/wake.pass.glsl), another push than when it came to rest (contact/rest/load_change.pass.glsl), or a force: where one may have
+// changed, it is stepped in vain (fused/frame.glsl), and wakes if it gains another velocity than in the first step of its rest.
+#pragma updates loads restPoses restLoads
+#include "contact/grid/shape.glsl"
+#include "contact/flags.glsl"
+#include "contact/rest/states.glsl"
+#pragma reads slots cells marks sphereMotions
+#ifdef RELEASE
+uniform VALUES oldRecords;
+#endif
+uniform float stepTime;      // s
+uniform float restDistance;  // m
+uniform float restTime;      // s
+uniform float wakeSpeed;     // m/s
+uniform bool probes;         // what rests has been stepped
+uniform bool wakes;          // all molecules of the group
+
+layout(std430) buffer State { float state[]; };
+
+int slotOf(int sphere)
+{
+    return int(slotsAt(sphere));
+}
+
+vec3 stateVector(int first, int vertex)
+{
+    return vec3(state[floatIndex(first, 3 * vertex)], state[floatIndex(first, 3 * vertex + 1)],
+                state[floatIndex(first, 3 * vertex + 2)]);
+}
+
+void setStateVector(int first, int vertex, vec3 value)
+{
+    for (int c = 0; c < 3; ++c) state[floatIndex(first, 3 * vertex + c)] = value[c];
+}
+
+// Sets what the state has behind the positions: velocities, and the solver's history, with which it goes on or not.
+void setMotion(int first, int vertex, vec3 velocity, bool goesOn)
+{
+    setStateVector(first + POSITION_ELEMENTS * BLOCK, vertex, velocity);
+#ifdef HISTORY
+    setStateVector(first + 2 * POSITION_ELEMENTS * BLOCK, vertex, vec3(goesOn ? 0.0 : NO_HISTORY, 0.0, 0.0));
+    setStateVector(first + 3 * POSITION_ELEMENTS * BLOCK, vertex, vec3(0.0));
+#endif
+}
+
+void setState(int sphere, float who)
+{
+    for (int k = 0; k < SPHERES; ++k) putLoads(sphere + k, vec4(loadsAt(sphere + k).xyz, who));
+}
+
+// Whether contact has woken a molecule at rest in this step.
+bool isWoken(int sphere)
+{
+    bool woken = false;
+    for (int k = 0; k < SPHERES; ++k) {
+        uint mark = marksAt(slotOf(sphere + k));
+        woken = woken || marksWoken(mark) || (mark & LOAD_CHANGED) != 0u;
+    }
+    return woken;
+}
+
+// Keeps a molecule at rest, or wakes it.
+void keepOrWake(int sphere, int first)
+{
+    bool isFirst = loadsAt(sphere).w == COME_TO_REST;
+    float change = 0.0;  // of what its vertices gain, m/s
+    for (int v = 0; v < VERTICES; ++v) {
+        vec3 gained = stateVector(first + POSITION_ELEMENTS * BLOCK, v);
+        vec4 load = restLoadsAt(sphere + v);
+        if (isFirst) putRestLoads(sphere + v, vec4(gained, load.w));
+        if (!isFirst) change = max(change, distance(gained, load.xyz));
+    }
+    bool woken = isWoken(sphere) || (probes && change > wakeSpeed);
+    for (int v = 0; v < VERTICES; ++v) {
+        vec3 place = stateVector(first, v);
+        vec3 gained = stateVector(first + POSITION_ELEMENTS * BLOCK, v);
+        setMotion(first, v, woken ? gained : vec3(0.0), !woken);
+        if (woken) putRestPoses(sphere + v, vec4(place, 0.0));
+    }
+    setState(sphere, woken ? AWAKE : RESTING);
+}
+
+// Lets a molecule that is awake come to rest.
+void rest(int molecule, int sphere, int first)
+{
+    float time = restPosesAt(sphere).w + stepTime;
+    bool isDead = cellsAt(slotOf(sphere)).w == 0u;
+    if (wakes || isDead || hasFlag(sphereMotionsAt(sphere).w)) time = 0.0;
+    for (int v = 0; v < VERTICES; ++v)
+        if (!(distance(stateVector(first, v), restPosesAt(sphere + v).xyz) <= restDistance)) time = 0.0;
+#ifdef RELEASE
+    if (valueOf(oldRecords, molecule).w >= 0.0) time = 0.0;  // what hangs may tear off
+#endif
+    bool comesToRest = time >= restTime;
+    for (int v = 0; v < VERTICES; ++v) {
+        if (time == 0.0) putRestPoses(sphere + v, vec4(stateVector(first, v), 0.0));
+        if (comesToRest) setMotion(first, v, vec3(0.0), true);
+    }
+    putRestPoses(sphere, vec4(restPosesAt(sphere).xyz, time));
+    if (!comesToRest) return;
+    for (int k = 0; k < SPHERES; ++k) putRestLoads(sphere + k, vec4(0.0, 0.0, 0.0, -1.0));
+    setState(sphere, COME_TO_REST);
+}
+
+void main()
+{
+    if (isBehindLast()) return;
+    int molecule = ownLane();
+    int sphere = firstNumber + molecule * SPHERES;
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    bool rested = hasFlag(cellsAt(slotOf(sphere)).w);
+    if (rested) keepOrWake(sphere, first);
+    if (!rested) rest(molecule, sphere, first);
+}

@@ -1,0 +1,86 @@
+// The spheres that a slot touches: all of them. Cells are twice as wide as the way to one that it may touch, two diameters
+// or more, so that of the 27 around a sphere only the eight on its side can hold one.
+//
+// A rasteriser on a CPU runs both sides of a branch, but leaves a loop when no lane stays in it: what is rare is the body
+// of a loop here, and the eight cells are one loop.
+#include "contact/search/touch.glsl"
+#pragma reads starts
+
+uniform float reach;  // m, no more than half a cell: what is further away touches nothing
+
+int startOf(int key)
+{
+#ifdef TEXTURES
+    return key > keyMask ? count : int(startsAt(key));
+#else
+    return int(startsAt(key));
+#endif
+}
+
+// Returns cell c of the eight to search: bit a of c selects the one further along axis a.
+ivec3 cellBeside(ivec3 side, int c)
+{
+    return ownCell + side * ivec3(c & 1, (c >> 1) & 1, c >> 2);
+}
+
+// Candidates that are fetched at once: a GPU waits as long for some as for one (set by C++).
+#ifndef AHEAD
+#define AHEAD 1
+#endif
+
+// Candidate i of cell c, with ends[c - 1] <= i < ends[c], is in slot i + shifts[c].
+int shifts[8];
+int ends[8];
+
+int slotOf(int i)
+{
+    int shift = shifts[7];
+    for (int c = 6; c >= 0; --c) shift = i < ends[c] ? shifts[c] : shift;
+    return i + shift;
+}
+
+void search(int slot)
+{
+    loadOwn(slot);
+    vec3 offset = ownPlace - vec3(ownCell & (localCells - 1)) * cell;
+    ivec3 side = ivec3(step(vec3(0.5 * cell), offset)) * 2 - 1;
+    int sum = 0;
+    for (int c = 0; c < 8; ++c) {
+        int key = int(cellKey(cellBeside(side, c), uint(keyMask)));
+        int first = startOf(key);
+        shifts[c] = first - sum;
+        sum += startOf(key + 1) - first;
+        ends[c] = sum;
+    }
+    float reachSquared = reach * reach;
+    int i = 0;  // the next candidate
+    while (i < sum) {
+        bool hit = false;
+        int other = 0;
+        while (i < sum && !hit) {
+            int others[AHEAD];
+            uvec4 theirs[AHEAD];
+            for (int k = 0; k < AHEAD; ++k) {
+                others[k] = slotOf(min(i + k, sum - 1));
+                theirs[k] = placesAt(others[k]);
+            }
+            int next = i + AHEAD;
+            for (int k = AHEAD - 1; k >= 0; --k) {
+                vec3 d = localDifference(ownPlace, uintBitsToFloat(theirs[k].xyz), cell);
+                if (i + k < sum && dot(d, d) < reachSquared && mayMeet(theirs[k].w, others[k])) {
+                    hit = true;
+                    other = others[k];
+                    next = i + k + 1;
+                }
+            }
+            i = next;
+        }
+        while (hit) {
+            // cells may share keys, and places repeat
+            int c = 0;
+            for (int k = 0; k < 7; ++k) c += int(i > ends[k]);
+            if (cellOf(other) == cellBeside(side, c)) meet(other);
+            hit = false;
+        }
+    }
+}

@@ -1,0 +1,62 @@
+// The spheres of contact by slot: a place in the order of their cells (contact/arrays.txt).
+#include "state/numbered.glsl"
+#include "physics/cells.glsl"
+#include "contact/flags.glsl"
+#pragma reads sorted places cells
+
+uniform int count;     // spheres
+uniform int keyMask;   // of the table of cells
+uniform float cell;    // m
+
+int sphereOf(int slot)
+{
+    return int(sortedAt(slot).y);
+}
+
+#ifdef TEXTURES
+#pragma reads motions
+
+uvec4 motionAt(int slot)
+{
+    return motionsAt(slot);
+}
+#else
+#pragma reads sphereMotions
+
+uvec4 motionAt(int slot)
+{
+    return sphereMotionsAt(sphereOf(slot));
+}
+#endif
+
+vec3 placeAt(int slot)
+{
+    return uintBitsToFloat(placesAt(slot).xyz);
+}
+
+vec3 velocityAt(int slot)
+{
+    return uintBitsToFloat(motionAt(slot).xyz);
+}
+
+bool isFresh(int slot)
+{
+    return hasFlag(motionAt(slot).w);
+}
+
+float radiusAt(int slot)
+{
+    return withoutFlag(cellsAt(slot).w);
+}
+
+// Whether the molecule of a slot's sphere rested when the step began.
+bool rested(int slot)
+{
+    return hasFlag(cellsAt(slot).w);
+}
+
+// How many of so many contacts a list holds, LIST at most.
+int listedIn(uint counted)
+{
+    return min(int(counted & CONTACTS), LIST);
+}

@@ -1,0 +1,221 @@
+#include "simulate/contact/data.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "sort/radix_sort.h"
+
+namespace shoal {
+
+using gpu::Program;
+
+namespace {
+
+constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
+constexpr size_t lineWords = 32;     // of a GPU's cache
+
+// Words of the counts of so many cells and of their tiles (shaders/contact/grid/cell_counts.glsl).
+size_t countWords(size_t cells) {
+    return cells + (cells + ContactData::cellTile - 1) / ContactData::cellTile * lineWords;
+}
+
+// Words of an entry of the largest array of lists.
+size_t entryWords(const ContactPlan& contact) {
+    return contact.remembers() ? 4 : 1;
+}
+
+// Entries of all lists together.
+size_t mostEntries(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    return std::min(size_t(info.maxStorageBlockBytes) / (entryWords(contact) * sizeof(uint32_t)),
+                    size_t(info.maxBufferTexels));
+}
+
+// Spheres for whose table of cells there is room.
+size_t mostOfTable(const gpu::ContextInfo& info) {
+    const size_t words =
+        std::min(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t), size_t(info.maxBufferTexels));
+    size_t cells = std::bit_floor(words);
+    while (countWords(cells) > words)
+        cells /= 2;
+    return cells / 2;
+}
+
+const ContactPlan* checkedInBuffers(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    const size_t most = ContactData::most(info, contact);
+    if (size_t(contact.spheres) <= most) return &contact;
+    throw Error(contact.settings.location,
+                concat("contact between ", contact.spheres,
+                       " spheres is more than this context holds: at most ", most));
+}
+
+}  // namespace
+
+size_t ContactData::most(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    return std::min({mostEntries(info, contact) / shortestList,
+                     size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4),
+                     size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info), mostOfTable(info)});
+}
+
+ContactFacts::ContactFacts(const Plan& plan, const ContactState& state, bool counts)
+    : textures(state.form() == ContactState::Form::textures),
+      fused(state.fused()),
+      counted(!textures && counts),
+      remembers(plan.contact.remembers()),
+      rests(!textures && plan.contact.settings.rest.has_value()),
+      staggers(plan.contact.settings.search == ContactSearch::staggered) {
+    for (const ContactGroup& group : plan.contact.groups) {
+        self |= group.self;
+        if (!remembers) continue;
+        rigid |= plan.groups[group.group].rigid;
+        spreads |= group.triangles || plan.groups[group.group].rigid;
+        colliders |= fused && plan.groups[group.group].needs.collide;
+    }
+}
+
+std::set<std::string> ContactFacts::names() const {
+    std::set<std::string> out;
+    const std::pair<bool, const char*> facts[] = {
+        {fused, "fused"},     {counted, "counted"},     {remembers, "remembers"},
+        {rests, "rests"},     {staggers, "staggers"},   {self, "self"},
+        {spreads, "spreads"}, {colliders, "colliders"}, {rigid, "rigid"}};
+    for (const auto& [holds, name] : facts)
+        if (holds) out.insert(name);
+    return out;
+}
+
+ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const Tables& usedTables,
+                         ContactState& usedState, std::optional<bool> asOnGpu)
+    : ContactFacts(usedPlan, usedState, asOnGpu.value_or(!usedContext.info().software)),
+      context(&usedContext),
+      plan(&usedPlan),
+      contact(textures ? &plan->contact : checkedInBuffers(context->info(), plan->contact)),
+      tables(&usedTables),
+      state(&usedState),
+      padded((size_t(contact->spheres) + contactLanes - 1) / contactLanes * contactLanes),
+      listLength(textures ? ContactPlan::fragmentList
+                          : int(std::min(size_t(contact->listLength),
+                                         mostEntries(context->info(), *contact) / padded))),
+      table(context->shaders() + "/contact/arrays.txt", state->form()),
+      arrays(*context, table, sizes(), names(), "contact") {
+    giveTables();
+}
+
+gpu::ArraySizes ContactData::sizes() const {
+    const size_t spheres = textures ? size_t(contact->spheres) : padded;
+    const size_t cells = size_t(1) << contact->tableBits;
+    return {{{"sphere", spheres}, {"slot", spheres}, {"key", cells}, {"counters", countWords(cells)}},
+            size_t(listLength),
+            contact->rowBits()};
+}
+
+// Gives the arrays that never change.
+void ContactData::giveTables() {
+    std::vector<glm::vec4> shapes, materials;
+    for (const ContactGroup& group : contact->groups) {
+        firstShapes_.push_back(int(shapes.size()));
+        shapes.insert(shapes.end(), group.shapes.begin(), group.shapes.end());
+    }
+    for (const glm::vec2& pair : contact->pairs)
+        materials.emplace_back(pair, 0, 0);
+    arrays.give("shapes", shapes.data(), shapes.size());
+    arrays.give("materials", materials.data(), materials.size());
+    if (textures && remembers) arrays.alias("oldImpulses", "impulses");
+    if (!self && !rests) return;
+    const auto [words, groups] = contact->exclusions();
+    if (self) arrays.give("apart", words.data(), words.size());
+    arrays.give("groupsOf", groups.data(), groups.size());
+}
+
+gpu::ProgramOptions ContactData::options(const std::string& file, const std::string& label) const {
+    gpu::ProgramOptions out;
+    (textures ? out.fragment : out.compute) = concat(file, ".pass.glsl");
+    out.label = concat("contact ", label);
+    out.arrays = &table;
+    out.defines = {concat("LIST ", listLength), concat("MOST_COLLIDERS ", ContactPlan::mostColliders)};
+    const auto define = [&](bool need, const std::string& name) {
+        if (need) out.defines.push_back(name);
+    };
+    define(remembers, "REMEMBERS");
+    define(rests, "RESTING");
+    define(staggers, "STAGGERED");
+    define(counted, "COUNTED");
+    define(counted, concat("CELL_TILE ", cellTile));
+    define(counted, concat("LINE_WORDS ", lineWords));
+    define(textures, "TEXTURES");
+    define(textures, concat("ROW_BITS ", contact->rowBits()));
+    if (textures) out.vertex = "passes/fullscreen.vert";
+    return out;
+}
+
+Program ContactData::stage(const std::string& file, const std::vector<std::string>& defines) const {
+    gpu::ProgramOptions made = options(file, file.substr(file.rfind('/') + 1));
+    const auto define = [&](bool need, const std::string& name) {
+        if (need) made.defines.push_back(name);
+    };
+    define(true, concat("NEIGHBORS ", contact->settings.neighbors));
+    define(true, concat("NEAR ", ContactPlan::near));
+    define(contact->settings.fastest.has_value(), "SWEPT");
+    define(self, "SELF");
+    define(spreads, "SPREAD");
+    define(rigid, "BODIES");
+    define(colliders, "WALLS");
+    made.defines.insert(made.defines.end(), defines.begin(), defines.end());
+    return Program(*context, made);
+}
+
+Program ContactData::groupStage(const ContactGroup& group, const std::string& file,
+                                const std::vector<std::string>& defines) const {
+    const GroupPlan& of = planOf(group);
+    gpu::ProgramOptions made = options(file, concat(file.substr(file.rfind('/') + 1), " of ", of.name));
+    for (const std::vector<std::string>& more : {state->defines(group.group), group.defines(), defines})
+        made.defines.insert(made.defines.end(), more.begin(), more.end());
+    const auto define = [&](bool need, const std::string& name) {
+        if (need) made.defines.push_back(name);
+    };
+    define(true, concat("VERTICES ", of.vertexCount));
+    define(true, concat("SPHERES ", group.spheresOf));
+    define(group.triangles, "TRIANGLES");
+    define(of.needs.pins, "PINS");
+    define(of.needs.release, "RELEASE");
+    define(rigid, "BODIES");
+    define(isRigid(group), "RIGID");
+    made.generated = {{"generated/colliders.glsl", plan->colliders.source}};
+    return Program(*context, made);
+}
+
+void ContactData::setTimes(const Program& program, const ContactTimes& times) {
+    program.set("stepTime", float(times.step));
+    program.set("restSpeed", float(times.restSpeed));
+}
+
+const Program& ContactData::withResponse(const Program& program, const ContactTimes& times) const {
+    with(program).set("count", contact->spheres);
+    program.set("cell", float(contact->cell));
+    program.set("groupCount", int(contact->groups.size()));
+    if (!textures) program.set("listStride", int(padded));
+    setTimes(program, times);
+    return program;
+}
+
+const Program& ContactData::withPart(const Program& program, const ContactGroup& group, size_t part) const {
+    with(program);
+    state->bind(program, group.group, part);
+    if (program.uses("firstShape"))
+        program.set("firstShape", firstShapes_[size_t(&group - contact->groups.data())]);
+    return program;
+}
+
+void ContactData::runResponding(const Program& program) {
+    if (textures)
+        runAll(program);
+    else
+        arrays.runIndirect(program, "respondingGroups", 0);
+}
+
+void ContactData::setColliders(const Program& program, const ContactGroup& group, const Frame& frame) const {
+    const std::vector<glm::vec4> parameters = colliderParameters(*plan, planOf(group), frame);
+    program.set("colliderParameters", std::span<const glm::vec4>(parameters));
+    tables->bind(program, *plan);
+}
+
+}  // namespace shoal

@@ -1,0 +1,104 @@
+// What all stages of contact share: the arrays on the GPU (shaders/contact/arrays.txt), what the scene has of
+// contact, and how their programs are made and run.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/arrays.h"
+#include "gpu/program.h"
+#include "simulate/contact/memory.h"
+#include "simulate/contact/state.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+
+namespace shoal {
+
+// What a step of contact is for.
+struct ContactTimes {
+    double step;       // s
+    double restSpeed;  // m/s
+    double substep;    // s
+};
+
+// What a scene has of contact, on a path.
+struct ContactFacts {
+    bool textures, fused;
+    bool counted;  // the cells are filled by counting instead of sorting
+    bool remembers, rests, staggers;
+    bool self = false;
+    bool spreads = false;  // the contacts of one sphere move others
+    bool colliders = false, rigid = false;
+
+    // `counts`: whether counting suits the device.
+    ContactFacts(const Plan& plan, const ContactState& state, bool counts);
+    std::set<std::string> names() const;  // of those that hold
+};
+
+class ContactData : public ContactFacts {
+  public:
+    // Borrows all of them. `asOnGpu`: the passes that suit a GPU, or a CPU rasteriser, whatever the context
+    // is. Error: more spheres than the context can hold, with how many it can; out of memory.
+    ContactData(gpu::Context& usedContext, const Plan& usedPlan, const Tables& usedTables,
+                ContactState& usedState, std::optional<bool> asOnGpu);
+
+    // Lists with buffers are as long as the plan's, or as the context has room for, but no shorter than this:
+    // as many as touch a sphere of their size at once without overlap.
+    static constexpr size_t shortestList = 12;
+    // Cells that a workgroup adds up (shaders/contact/grid/starts.pass.glsl).
+    static constexpr size_t cellTile = 1024;
+    // Where the workgroups of shaders/contact/rest/mark_groups.glsl begin, in bytes.
+    static constexpr size_t awakeGroups = 0, markedGroups = 3 * sizeof(uint32_t),
+                            struckGroups = 6 * sizeof(uint32_t);
+    // Spheres that a context holds in buffers, with the shortest lists.
+    static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
+
+    // A stage of all spheres, contact/FILE.pass.glsl, and of one group.
+    gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {}) const;
+    gpu::Program groupStage(const ContactGroup& group, const std::string& file,
+                            const std::vector<std::string>& defines = {}) const;
+    const gpu::Program& with(const gpu::Program& program) const { return arrays.with(program); }
+    // With what all stages of the response are given.
+    const gpu::Program& withResponse(const gpu::Program& program, const ContactTimes& times) const;
+    // With a part of a group: its state, and its spheres.
+    const gpu::Program& withPart(const gpu::Program& program, const ContactGroup& group, size_t part) const;
+    static void setTimes(const gpu::Program& program, const ContactTimes& times);
+    // Run what respond, one of all stages of the response.
+    void runResponding(const gpu::Program& program);
+    void runAll(const gpu::Program& program) { arrays.run(program, 0, contact->spheres); }
+
+    const GroupPlan& planOf(const ContactGroup& group) const { return plan->groups[group.group]; }
+    bool isRigid(const ContactGroup& group) const { return rigid && planOf(group).rigid; }
+    int keyMask() const { return (1 << contact->tableBits) - 1; }
+    // Spheres of a part: the first, and how many.
+    struct Spheres {
+        int first, count;
+    };
+    Spheres spheresOf(const ContactGroup& group, const ContactState::Part& part) const {
+        return {group.firstSphere + part.first * group.spheresOf, part.count * group.spheresOf};
+    }
+    // The numbers of the colliders of a group.
+    void setColliders(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
+
+    gpu::Context* context;
+    const Plan* plan;
+    const ContactPlan* contact;
+    const Tables* tables;
+    ContactState* state;
+    size_t padded;  // spheres, to whole workgroups
+    int listLength;
+    gpu::ArrayTable table;
+    gpu::Arrays arrays;
+
+  private:
+    gpu::ArraySizes sizes() const;
+    void giveTables();
+    gpu::ProgramOptions options(const std::string& file, const std::string& label) const;
+
+    std::vector<int> firstShapes_;  // of each group with contact
+};
+
+}  // namespace shoal

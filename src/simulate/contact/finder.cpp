@@ -1,0 +1,67 @@
+#include "simulate/contact/finder.h"
+
+#include <algorithm>
+
+namespace shoal {
+
+using gpu::Program;
+
+ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
+    const bool isExact = data.contact->settings.search == ContactSearch::exact;
+    std::vector<std::string> defines;
+    if (isExact && data.counted) defines.emplace_back("AHEAD 4");
+    find_ = data.stage(isExact ? "contact/search/find" : "contact/search/neighbors", defines);
+    if (data.staggers && !data.textures)
+        findStaggered_ = data.stage("contact/search/neighbors", {"SECOND_GRID"});
+    if (!data.rests) return;
+    defines.emplace_back("AMONG_RESTING");
+    findResting_ = data.stage("contact/search/find", defines);
+    awake_ = data.stage("contact/rest/awake");
+    wake_ = data.stage("contact/rest/wake");
+}
+
+void ContactFinder::find(const Program& program, const ContactTimes& times) {
+    data_->with(program).set("count", data_->contact->spheres);
+    program.set("cell", float(data_->contact->cell));
+    program.set("keyMask", data_->keyMask());
+    if (data_->contact->settings.search == ContactSearch::exact)
+        program.set("reach", float(data_->contact->reach));
+    if (data_->contact->settings.fastest || data_->rests) ContactData::setTimes(program, times);
+    if (data_->textures) return data_->runAll(program);
+    program.set("listStride", int(data_->padded));
+    program.set("last", int(!findStaggered_ || &program == &findStaggered_));
+    if (data_->rests)
+        data_->arrays.runIndirect(
+            program, "markGroups",
+            &program == &findResting_ ? ContactData::markedGroups : ContactData::awakeGroups);
+    else
+        data_->runAll(program);
+}
+
+// As many contacts away from an impact as an impulse gets in a step, and as there are bits for.
+void ContactFinder::wake() {
+    const int furthest = std::min(data_->contact->settings.iterations, 24);
+    for (int away = 0; away <= furthest; ++away) {
+        data_->with(wake_).set("count", data_->contact->spheres);
+        wake_.set("listStride", int(data_->padded));
+        wake_.set("contactsAway", away);
+        wake_.set("last", int(away == furthest));
+        data_->arrays.runIndirect(wake_, "markGroups", ContactData::struckGroups);
+    }
+}
+
+void ContactFinder::run(const ContactTimes& times) {
+    if (data_->rests) {
+        data_->with(awake_).set("count", data_->contact->spheres);
+        awake_.set("listStride", int(data_->padded));
+        data_->runAll(awake_);
+    }
+    find(find_, times);
+    if (data_->rests) {
+        wake();
+        find(findResting_, times);
+    }
+    if (findStaggered_) find(findStaggered_, times);
+}
+
+}  // namespace shoal

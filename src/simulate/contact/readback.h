@@ -1,0 +1,22 @@
+// What contact found and remembers, read back and written, in either form of its arrays.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "simulate/contact/data.h"
+#include "simulate/contact/memory.h"
+
+namespace shoal {
+
+// Contacts that were left out, of all steps so far.
+uint32_t droppedContacts(const ContactData& data);
+// Each pair of touching spheres once, ascending.
+std::vector<std::pair<int, int>> foundPairs(const ContactData& data);
+// Empty: nothing is remembered.
+ContactMemory readMemory(const ContactData& data);
+// Of another number of spheres, nothing is remembered.
+void writeMemory(ContactData& data, const ContactMemory& memory);
+
+}  // namespace shoal

@@ -1,0 +1,206 @@
+#include "simulate/contact/solver.h"
+
+#include <optional>
+
+namespace shoal {
+
+using gpu::Program;
+
+ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
+    if (data.remembers) {
+        prepare_ = data.stage("contact/response/prepare");
+        solve_ = data.stage("contact/response/solve");
+        store_ = data.stage("contact/response/store");
+        if (data.textures) {
+            prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"});
+            constrain_ = data.stage("contact/response/constrain");
+            solveEntries_ = data.stage("contact/response/solve", {"ENTRIES"});
+        } else {
+            solveFirst_ = data.stage("contact/response/solve", {"FIRST"});
+        }
+    } else {
+        nearest_ = data.stage("contact/response/nearest");
+    }
+    for (const ContactGroup& group : data.contact->groups) {
+        Group& made = groups_.emplace_back();
+        const bool many = group.triangles || data.isRigid(group);
+        std::vector<std::string> applies = {"APPLIES"};
+        if (many) applies.emplace_back("MANY");
+        made.apply = data.groupStage(
+            group, data.textures ? "contact/response/gains" : "contact/response/apply", applies);
+        if (!data.spreads) continue;
+        made.effectiveSum = data.groupStage(group, "contact/response/effective_sum");
+        made.velocities = data.groupStage(group, "contact/response/velocities");
+    }
+}
+
+template <typename Visit>
+void ContactSolver::forParts(const Visit& visit) const {
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const ContactGroup& group = data_->contact->groups[g];
+        const std::vector<ContactState::Part> parts = data_->state->parts(group.group);
+        for (size_t p = 0; p < parts.size(); ++p)
+            visit(g, p, data_->spheresOf(group, parts[p]));
+    }
+}
+
+template <typename Visit>
+void ContactSolver::forBodies(const Visit& visit) const {
+    struct Run {
+        size_t group, part;
+        ContactData::Spheres spheres;
+    };
+    std::optional<Run> run;
+    forParts([&](size_t g, size_t part, const ContactData::Spheres& more) {
+        const std::vector<ContactGroup>& groups = data_->contact->groups;
+        const bool together = run && !data_->textures && data_->isRigid(groups[run->group]) &&
+                              data_->isRigid(groups[g]) &&
+                              run->spheres.first + run->spheres.count == more.first &&
+                              groups[run->group].spheresOf == groups[g].spheresOf;
+        if (together) {
+            run->spheres.count += more.count;
+            return;
+        }
+        if (run) visit(run->group, run->part, run->spheres);
+        run = Run{g, part, more};
+    });
+    if (run) visit(run->group, run->part, run->spheres);
+}
+
+void ContactSolver::runBodies(const Program& program, const ContactGroup& group,
+                              const ContactData::Spheres& spheres) {
+    if (data_->textures) {
+        program.set("groupSpheres", spheres.count);
+        program.set("count", data_->contact->spheres);
+        return data_->runAll(program);
+    }
+    data_->arrays.run(program, spheres.first,
+                      data_->isRigid(group) ? spheres.count / group.spheresOf : spheres.count);
+}
+
+void ContactSolver::runEntries(const Program& program) {
+    const int together = data_->arrays.entriesADraw(program);
+    for (int first = 0; first < data_->listLength; first += together) {
+        program.set("firstEntry", first);
+        data_->arrays.run(program, 0, data_->contact->spheres, first);
+    }
+}
+
+void ContactSolver::prepare(const ContactTimes& times) {
+    if (data_->textures) {
+        runEntries(data_->withResponse(prepareEntries_, times));
+        data_->arrays.rotate({"impulses", "earlierImpulses", "nextImpulses"});
+    }
+    data_->runResponding(data_->withResponse(prepare_, times));
+    if (data_->textures && data_->colliders)
+        data_->arrays.rotate({"colliderImpulses", "earlierColliderImpulses", "nextColliderImpulses"});
+    if (data_->spreads) countEffective();
+    if (data_->textures) runEntries(data_->withResponse(constrain_, times));
+}
+
+void ContactSolver::countEffective() {
+    forBodies([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+        const ContactGroup& group = data_->contact->groups[g];
+        const Program& program = data_->withPart(groups_[g].effectiveSum, group, part);
+        if (data_->textures) program.set("firstSphere", spheres.first);
+        runBodies(program, group, spheres);
+    });
+}
+
+// Where one sphere's contacts move others.
+void ContactSolver::findVelocities(float momentum) {
+    forBodies([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+        const ContactGroup& group = data_->contact->groups[g];
+        const Program& program = data_->withPart(groups_[g].velocities, group, part);
+        program.set("momentum", momentum);
+        program.set("firstSphere", spheres.first);
+        runBodies(program, group, spheres);
+    });
+}
+
+void ContactSolver::solve(const ContactTimes& times, int iteration) {
+    const int iterations = data_->contact->settings.iterations;
+    const float momentum = ContactPlan::momentum(iteration, iterations);
+    if (data_->spreads) findVelocities(momentum);
+    const auto use = [&](const Program& program) -> const Program& {
+        data_->withResponse(program, times);
+        if (&program != &solveFirst_) program.set("momentum", momentum);
+        return program;
+    };
+    if (data_->textures) {
+        runEntries(use(solveEntries_));
+        data_->arrays.rotate({"impulses", "earlierImpulses", "nextImpulses"});
+    }
+    const bool isFirst = iteration == 0 && !data_->textures;
+    const Program& program = use(isFirst ? solveFirst_ : solve_);
+    if (!data_->textures && !data_->spreads)
+        program.set("nextMomentum", ContactPlan::momentum(iteration + 1, iterations));
+    data_->runResponding(program);
+    data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
+    if (data_->textures) {
+        if (data_->colliders)
+            data_->arrays.rotate({"colliderImpulses", "earlierColliderImpulses", "nextColliderImpulses"});
+        return;
+    }
+    data_->arrays.swap("impulses", "earlierImpulses");
+    if (!data_->spreads) data_->arrays.swap("velocities", "nextVelocities");
+}
+
+void ContactSolver::store(const ContactTimes& times) {
+    data_->runResponding(data_->withResponse(store_, times));
+    if (data_->textures) data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
+}
+
+void ContactSolver::apply(const ContactTimes& times) {
+    forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+        const ContactGroup& group = data_->contact->groups[g];
+        const Program& program = data_->withPart(groups_[g].apply, group, part);
+        program.set("stepTime", float(times.step));
+        program.set("restSpeed", float(times.restSpeed));
+        program.set("substepTime", float(times.substep));
+        program.set("firstSphere", spheres.first);
+        if (group.triangles || data_->isRigid(group)) {  // spheres act on a vertex
+            const int molecules = spheres.count / group.spheresOf;
+            return data_->arrays.run(program, spheres.first, molecules * data_->planOf(group).vertexCount);
+        }
+        program.set("partSpheres", spheres.count);
+        data_->runResponding(program);
+    });
+    data_->arrays.settle();
+}
+
+void ContactSolver::applyGains(const ContactTimes& times) {
+    forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+        const ContactGroup& group = data_->contact->groups[g];
+        const bool many = group.triangles || data_->isRigid(group);  // spheres act on a vertex
+        const Program& program =
+            many ? data_->withPart(groups_[g].apply, group, part) : data_->with(groups_[g].apply);
+        program.set("stepTime", float(times.step));
+        if (many) program.set("firstSphere", spheres.first);
+        data_->arrays.run(program, spheres.first, spheres.count);
+        data_->state->apply(group.group, [&](const Program& applies) {
+            applies.set("firstSphere", group.firstSphere);
+            applies.texture("gains", data_->arrays.texture("gains"));
+            if (!applies.uses("restSpeed")) return;  // it has no history
+            applies.set("restSpeed", float(times.restSpeed));
+            applies.set("substepTime", float(times.substep));
+        });
+    });
+}
+
+void ContactSolver::run(const ContactTimes& times) {
+    if (data_->remembers) {
+        prepare(times);
+        for (int i = 0; i < data_->contact->settings.iterations; ++i)
+            solve(times, i);
+        store(times);
+    } else {
+        data_->runResponding(data_->withResponse(nearest_, times));
+    }
+    if (data_->textures)
+        applyGains(times);
+    else
+        apply(times);
+}
+
+}  // namespace shoal

@@ -1,0 +1,55 @@
+// The response of contact (shaders/contact/response): the impulses of all contacts, in Jacobi iterations.
+//
+//   prepare         the impulse with which each contact begins, from what it remembers
+//   effective_sum   by how many contacts each step is divided, where contacts of several spheres act together
+//   constrain       what the iterations ask of a contact (with buffers, in the first of them)
+//   solve           one iteration, after velocities where one sphere's contacts move others
+//   store           what contacts remember for the next step (of all these, UberFlow's response has nearest)
+//   apply           into the state (in fragments gains, and then a pass of the path)
+//
+// Only gathers: a repeat gives the same bits.
+#pragma once
+
+#include <vector>
+
+#include "simulate/contact/data.h"
+
+namespace shoal {
+
+class ContactSolver {
+  public:
+    explicit ContactSolver(ContactData& data);
+    void run(const ContactTimes& times);
+
+  private:
+    struct Group {
+        gpu::Program effectiveSum, velocities, apply;
+    };
+
+    // Visits the parts of all groups, or once for all groups whose rigid bodies have equally many spheres: a
+    // dispatch takes a GPU longer than what it does for a few. visit(number of the group with contact, part,
+    // spheres)
+    template <typename Visit>
+    void forParts(const Visit& visit) const;
+    template <typename Visit>
+    void forBodies(const Visit& visit) const;
+    // A lane a sphere, or a rigid body.
+    void runBodies(const gpu::Program& program, const ContactGroup& group,
+                   const ContactData::Spheres& spheres);
+    void runEntries(const gpu::Program& program);  // in fragments
+
+    void prepare(const ContactTimes& times);
+    void countEffective();
+    void constrain(const ContactTimes& times);
+    void solve(const ContactTimes& times, int iteration);
+    void findVelocities(float momentum);
+    void store(const ContactTimes& times);
+    void apply(const ContactTimes& times);
+    void applyGains(const ContactTimes& times);
+
+    ContactData* data_;
+    std::vector<Group> groups_;
+    gpu::Program nearest_, prepareEntries_, prepare_, constrain_, solveEntries_, solveFirst_, solve_, store_;
+};
+
+}  // namespace shoal
