@@ -13,8 +13,14 @@ int sphereOf(int slot)
     return int(sortedAt(slot).y);
 }
 
+// Where what a step leaves of a slot's sphere to the next lies (contact/response/memory.glsl).
 #ifdef TEXTURES
 #pragma reads motions
+
+int memoryRow(int slot)
+{
+    return slot;
+}
 
 uvec4 motionAt(int slot)
 {
@@ -22,6 +28,11 @@ uvec4 motionAt(int slot)
 }
 #else
 #pragma reads sphereMotions
+
+int memoryRow(int slot)
+{
+    return sphereOf(slot);
+}
 
 uvec4 motionAt(int slot)
 {

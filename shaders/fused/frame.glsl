@@ -55,10 +55,10 @@ vec3 gained[VERTICES];  // m/s, in a step from rest
 void loadLoads(int molecule)
 {
     for (int i = 0; i < VERTICES; ++i) {
-        vec4 of = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i));
-        load[i] = of.xyz;
+        vec4 own = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i));
+        load[i] = own.xyz;
 #ifdef RIGID_IMPACT
-        heldByContact = heldByContact && of.w < 0.0;
+        heldByContact = heldByContact && own.w == HELD_BY_CONTACT;
 #endif
     }
 }
@@ -80,10 +80,10 @@ void main()
     loadLoads(molecule);
 #endif
 #ifdef RESTING
-    float resting = fetch(contactLoads, firstSphere + molecule * SPHERES).w;
-    bool probed = resting > (probes ? 0.0 : 1.0);
+    float mover = fetch(contactLoads, firstSphere + molecule * SPHERES).w;
+    bool probed = mover == COME_TO_REST || (probes && isResting(mover));
 #ifndef MOLECULE_VERTICES
-    if (resting > 0.0 && !probed) substeps = 0;
+    if (isResting(mover) && !probed) substeps = 0;
 #endif
 #endif
 #ifdef MAY_BE_CUT
@@ -113,8 +113,8 @@ void main()
 #endif
 #ifdef RESTING
     // A molecule at rest is stored as it was, but with the velocities that it would gain: when these change,
-    // contact/rest.comp wakes it.
-    if (resting > 0.0) {
+    // contact/rest/rest.pass.glsl wakes it.
+    if (isResting(mover)) {
         for (int i = 0; i < VERTICES; ++i) {
             gained[i] = probed ? v[i] : vec3(0.0);
         }

@@ -116,10 +116,11 @@ vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering a
 
 #ifdef REMEMBERS
 #include "state/numbered.glsl"
+#include "contact/rest/states.glsl"
 
-uniform FLOATS contactLoads;  // m/s^2, by sphere; w as contact/apply.comp has it
+uniform FLOATS contactLoads;  // m/s^2, by sphere; w who moves it (contact/rest/states.glsl)
 uniform int firstSphere;      // of the part
-vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/apply.comp)
+vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/response/apply.pass.glsl)
 #ifdef RIGID_IMPACT
 bool heldByContact = true;    // contact with other molecules answers the colliders as well
 #endif

@@ -1,4 +1,4 @@
-// Contacts between molecules act on a vertex by what they remember (contact/gains.frag). Needs state/textures.glsl.
+// Contacts between molecules act on a vertex by what they remember (contact/response/gains.pass.glsl). Needs state/textures.glsl.
 #ifdef REMEMBERS
 #include "state/numbered.glsl"
 

@@ -1,4 +1,4 @@
-// apply: a texel a vertex of one group, into the state: what its sphere's contacts do (contact/gains.frag).
+// A texel a vertex of one group, into the state: what its sphere's contacts do (contact/response/gains.pass.glsl).
 #include "state/textures.glsl"
 #include "state/numbered.glsl"
 

@@ -12,7 +12,7 @@ namespace shoal {
 
 namespace {
 
-// Molecules of a group, and groups, that the label of a sphere tells apart (shaders/contact/records.glsl).
+// Molecules of a group, and groups, that the label of a sphere tells apart (shaders/contact/arrays.txt).
 constexpr size_t mostGroups = 64;
 constexpr int64_t mostSpheres = int64_t(1) << 27;
 

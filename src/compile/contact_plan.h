@@ -31,7 +31,7 @@ struct ContactGroup {
     glm::dvec2 growth{1};
     bool triangles = false, self = false;
     std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
-    std::vector<glm::vec4> shapes;    // shaders/contact/shape.glsl
+    std::vector<glm::vec4> shapes;    // shaders/contact/grid/shape.glsl
     // With `self`: bit k of the words of a sphere tells that it does not meet sphere k of its own molecule:
     // itself, and what is closer than two radii in the rest shape. `wordsOf` words a sphere.
     std::vector<uint32_t> apart;
@@ -81,8 +81,8 @@ struct ContactPlan {
     // Textures of fragments and of the ping-pong path have rows of 2^rowBits texels: the table of cells is a
     // square or two.
     int rowBits() const { return (tableBits + 1) / 2; }
-    // Which spheres of one molecule do not meet, of all groups (shaders/contact/touch.glsl): for each group x
-    // its first sphere, y spheres of a molecule, z first word, w words of a sphere.
+    // Which spheres of one molecule do not meet, of all groups (shaders/contact/search/touch.glsl): for each
+    // group x its first sphere, y spheres of a molecule, z first word, w words of a sphere.
     struct Exclusions {
         std::vector<uint32_t> words;
         std::vector<glm::uvec4> groups;

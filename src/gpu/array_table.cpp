@@ -92,7 +92,6 @@ void ArrayTable::readRow(const std::vector<std::string>& cells, const Location& 
          "eight columns: name | form | value | of | lives | starts | when it is needed | meaning");
     const std::string& form = cells[1];
     need(form == "both" || form == "buffers" || form == "textures", "a form: both, buffers or textures");
-    if (form != "both" && (form == "buffers") != (form_ == Form::buffers)) return;
     ArrayRow row;
     row.name = cells[0];
     std::string_view value = cells[2];
@@ -117,13 +116,19 @@ void ArrayTable::readRow(const std::vector<std::string>& cells, const Location& 
     row.start = ArrayRow::Start(start - std::begin(starts));
     row.when = split(cells[6], ' ');
     std::erase(row.when, "always");
-    if (!rows_.emplace(row.name, row).second)
+    const bool isHere = form == "both" || (form == "buffers") == (form_ == Form::buffers);
+    if (!(isHere ? rows_ : elsewhere_).emplace(row.name, row).second)
         throw Error(where, concat("there are two arrays \"", row.name, "\""));
 }
 
 const ArrayRow* ArrayTable::find(std::string_view name) const {
     const auto found = rows_.find(name);
     return found == rows_.end() ? nullptr : &found->second;
+}
+
+const ArrayRow* ArrayTable::findElsewhere(std::string_view name) const {
+    const auto found = elsewhere_.find(name);
+    return found == elsewhere_.end() || find(name) ? nullptr : &found->second;
 }
 
 const ArrayRow& ArrayTable::row(std::string_view name, const Location& asker) const {
@@ -134,6 +139,13 @@ const ArrayRow& ArrayTable::row(std::string_view name, const Location& asker) co
     const std::string near = nearest(std::string(name), names);
     throw Error(asker, concat("there is no array \"", name, "\" in ", file_,
                               near.empty() ? "" : concat(" (did you mean \"", near, "\"?)")));
+}
+
+// What is put there is put nowhere.
+static std::string nowhere(const ArrayRow& row) {
+    const std::string name = capital(row.name);
+    return concat("#define put", name, "(", argumentsOf(row, ""), ", value)\n#define putAll", name,
+                  "(i, values)\n");
 }
 
 std::string ArrayDeclarations::withStride(const ArrayRow& row) {
@@ -225,17 +237,22 @@ std::string ArrayDeclarations::declare(const std::string& verb, const std::vecto
                                        const Location& where) {
     if (verb != "reads" && verb != "writes" && verb != "updates")
         throw Error(where, "expected #pragma reads, writes or updates, and names of arrays");
-    std::vector<const ArrayRow*> rows;
-    for (const std::string& name : names)
-        rows.push_back(&table_->row(name, where));
     const bool textures = table_->form() == ArrayTable::Form::textures;
-    if (verb == "writes" && textures) return outputs(rows);
-    if (verb == "updates" && textures) throw Error(where, "fragments update no array");
+    std::vector<const ArrayRow*> rows;
     std::string out;
+    for (const std::string& name : names) {
+        const ArrayRow* elsewhere = verb == "reads" ? nullptr : table_->findElsewhere(name);
+        if (elsewhere)
+            out += nowhere(*elsewhere);
+        else
+            rows.push_back(&table_->row(name, where));
+    }
+    if (verb == "writes" && textures) return out + outputs(rows);
     for (const ArrayRow* row : rows) {
-        if (verb == "updates" && read_.contains(row->name))
+        if (verb == "updates" && !textures && read_.contains(row->name))
             throw Error(where, concat("\"", row->name, "\" is updated after it was read"));
-        out += verb == "reads" ? reading(*row) : block(*row, verb == "updates");
+        out += verb == "reads" || textures ? reading(*row) : block(*row, verb == "updates");
+        if (verb == "updates" && textures) out += nowhere(*row);
     }
     return out;
 }

@@ -11,8 +11,10 @@
 //                                   what reads it
 //
 // With buffers a lane writes where it likes. In fragments `writes` makes the outputs of the pass, whose
-// targets follow from their names (Program::writes); of an array that has a value for each entry of a list a
-// pass writes some entries, from `firstEntry` on, and calls putEntries() at its end.
+// targets follow from their names (Program::written); of an array that has a value for each entry of a list a
+// pass writes some entries, from `firstEntry` on, and calls putEntries() at its end. So that a pass has one
+// text for both, fragments only read what it updates, and what it puts into an array of the other form goes
+// nowhere.
 #pragma once
 
 #include <map>
@@ -51,6 +53,8 @@ class ArrayTable {
     // The includes that declarations need.
     const std::vector<std::string>& includes() const { return includes_; }
     const ArrayRow* find(std::string_view name) const;
+    // The row of an array that the other form alone has, or null.
+    const ArrayRow* findElsewhere(std::string_view name) const;
     // Error, located: there is no such row.
     const ArrayRow& row(std::string_view name, const Location& asker) const;
 
@@ -59,7 +63,7 @@ class ArrayTable {
 
     std::string file_;
     Form form_;
-    std::map<std::string, ArrayRow, std::less<>> rows_;
+    std::map<std::string, ArrayRow, std::less<>> rows_, elsewhere_;
     std::vector<std::string> includes_;
 };
 
@@ -71,7 +75,7 @@ class ArrayDeclarations {
     explicit ArrayDeclarations(const ArrayTable& table) : table_(&table) {}
 
     // The text in place of #pragma reads, writes or updates with these names. Error, located: it is none of
-    // the three; no such array; an array that fragments update.
+    // the three; no such array.
     std::string declare(const std::string& verb, const std::vector<std::string>& names,
                         const Location& where);
     const std::vector<std::string>& written() const { return written_; }

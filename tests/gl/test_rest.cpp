@@ -1,5 +1,5 @@
-// Molecules at rest (shaders/contact/rest.comp): they cost nothing, change nothing, and wake when something
-// happens to them.
+// Molecules at rest (shaders/contact/rest/rest.pass.glsl): they cost nothing, change nothing, and wake when
+// something happens to them.
 #include <algorithm>
 
 #include "gl/agreement.h"

@@ -84,6 +84,11 @@ TEST_CASE("a shader declares arrays by name, with buffers or in fragments", "[ar
     CHECK_THAT(written, Contains("layout(location = 0) out vec4 newPushes[ENTRIES_A_DRAW];"));
     CHECK_THAT(written, Contains("layout(location = 4) out vec4 newAnchors[ENTRIES_A_DRAW];"));
     CHECK_THAT(written, Contains("#define ENTRIES_A_DRAW 4"));
+    // one text for both: fragments read what it updates, and what another form alone has takes nothing
+    const std::string kept = shaderOf(textures, "#pragma updates totals\n#pragma writes words\n");
+    CHECK_THAT(kept,
+               Contains("uniform sampler2DArray totals;") && Contains("#define putTotals(i, k, value)\n"));
+    CHECK_THAT(kept, Contains("#define putWords(i, k, value)\n") && !Contains("buffer"));
 }
 
 TEST_CASE("what is wrong with a row or a name is told where it stands", "[arrays]") {
@@ -103,5 +108,5 @@ TEST_CASE("what is wrong with a row or a name is told where it stands", "[arrays
                       Contains("expected #pragma reads, writes or updates"));
     CHECK_THROWS_WITH(shaderOf(buffers, "#pragma reads lists\n#pragma updates lists\n"),
                       Contains("updated after it was read"));
-    CHECK_THROWS_WITH(shaderOf(textures, "#pragma updates totals\n"), Contains("fragments update no array"));
+    CHECK_THROWS_WITH(shaderOf(buffers, "#pragma reads pairs\n"), Contains("there is no array \"pairs\""));
 }

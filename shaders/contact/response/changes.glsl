@@ -63,7 +63,7 @@ vec3 velocityBefore(int sphere)
 #endif
 
 // Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
-// reaches none that is not known as near (contact/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
+// reaches none that is not known as near (contact/grid/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
 bool holds(int sphere, vec3 changed, float stepTime)
 {
     int slot = slotOf(sphere);

@@ -14,13 +14,3 @@ bool pressesOn(NearCollider near)
 {
     return near.gap < 1e20 && own.weight > 0.0;
 }
-
-// Where what is known of the colliders of a slot's sphere lies.
-int colliderRow(int slot)
-{
-#ifdef TEXTURES
-    return slot;
-#else
-    return sphereOf(slot);
-#endif
-}

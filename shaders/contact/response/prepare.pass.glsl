@@ -2,9 +2,9 @@
 // start), and the sums of all. In fragments a pass works out some impulses (ENTRIES), and another the sums.
 #ifndef TEXTURES
 #pragma updates warmStart
+#endif
 #ifdef WALLS
 #pragma updates colliderImpulses
-#endif
 #endif
 #include "contact/response/warm_start.glsl"
 
@@ -68,9 +68,9 @@ void countIn(vec3 normal)
 
 #ifdef WALLS
 #include "contact/response/colliders.glsl"
-#ifdef TEXTURES
-#pragma reads colliderImpulses oldColliders
 #pragma writes nextColliderImpulses
+#ifdef TEXTURES
+#pragma reads oldColliders
 
 vec3 oldNormal(int slot, int k)
 {
@@ -149,11 +149,8 @@ void main()
         shift += near.normal * pushes[k].w;
         start += length(pushes[k].xyz);
     }
-#ifdef TEXTURES
     putAllNextColliderImpulses(slot, pushes);
-#else
     putAllColliderImpulses(memory, pushes);
-#endif
 #endif
     impulse -= acted.xyz;
     putWarmStart(memory, vec4(acted.xyz, 0.0));

@@ -1,10 +1,8 @@
 // The stage of contact/response/pair.glsl that is repeated: one Jacobi iteration of all impulses. In fragments a pass works out some impulses
 // (ENTRIES), and another the colliders' and the sums. With buffers the FIRST iteration also works out the constraints for all.
-#ifndef TEXTURES
 #pragma updates impulses earlierImpulses
 #ifdef WALLS
 #pragma updates colliderImpulses earlierColliderImpulses
-#endif
 #endif
 #include "contact/response/iteration.glsl"
 
@@ -68,7 +66,7 @@ vec4 solveEntry(int slot, int e, out vec3 normal)
 
 #pragma reads warmStart
 #pragma writes nextTotals
-#if !defined(TEXTURES) && !defined(SPREAD)
+#ifndef SPREAD
 #pragma writes nextVelocities
 
 uniform float nextMomentum;  // of the next iteration
@@ -76,10 +74,7 @@ uniform float nextMomentum;  // of the next iteration
 
 #ifdef WALLS
 #include "contact/response/colliders.glsl"
-#ifdef TEXTURES
-#pragma reads colliderImpulses earlierColliderImpulses
 #pragma writes nextColliderImpulses
-#endif
 
 // Returns a collider's impulse after the iteration: a body of infinite mass, which does not ask whether it slides.
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
@@ -99,11 +94,7 @@ void main()
     if (slot < 0) return;
     loadOwn(slot);
     int listed = listedOf(slot);
-#ifdef TEXTURES
-    vec3 impulse = -warmStartAt(slot).xyz;
-#else
-    vec3 impulse = -warmStartAt(sphereOf(slot)).xyz;
-#endif
+    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         vec3 normal;
@@ -112,7 +103,7 @@ void main()
         shift += normal * abs(push.w);
     }
 #ifdef WALLS
-    int row = colliderRow(slot);
+    int row = memoryRow(slot);
     vec4 next[MOST_COLLIDERS];
     for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
     for (int k = 0; k < MOST_COLLIDERS; ++k) {
@@ -122,18 +113,14 @@ void main()
         next[k] = solveCollider(near, now, earlierColliderImpulsesAt(row, k));
         impulse += next[k].xyz;
         shift += near.normal * next[k].w;
-#ifndef TEXTURES
         putEarlierColliderImpulses(row, k, now);
         putColliderImpulses(row, k, next[k]);
-#endif
     }
-#ifdef TEXTURES
     putAllNextColliderImpulses(slot, next);
-#endif
 #endif
     putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-#if !defined(TEXTURES) && !defined(SPREAD)
+#ifndef SPREAD
     vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
     putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
     further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;

@@ -1,17 +1,10 @@
 // The last stage of contact/response/pair.glsl: how far the contacts move the spheres, and what they remember for the next step.
-#ifndef TEXTURES
 #ifdef WALLS
 #pragma updates colliderImpulses
 #endif
-#pragma updates totals
-#endif
 #include "contact/response/pair.glsl"
 #pragma reads impulses anchors totals
-#ifdef TEXTURES
-#pragma writes nextTotals warmStart
-#else
-#pragma writes partners oldImpulses oldAnchors warmStart memoryCounts
-#endif
+#pragma writes nextTotals warmStart partners keptImpulses keptAnchors memoryCounts
 
 // Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
 // time since, what sticks back towards where it began to. `kept`: the contact's impulse as the next step begins with it.
@@ -32,10 +25,7 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
 
 #ifdef WALLS
 #include "contact/response/colliders.glsl"
-#pragma reads colliderImpulses
-#ifndef TEXTURES
 #pragma writes oldNormals
-#endif
 
 // Returns which part of what colliders push the next step begins with. Both sums are of the impulses' lengths, N s.
 float rememberedOfColliders(float start, float now)
@@ -62,14 +52,12 @@ void main()
         ContactImpulse kept;
         shift += store(slot, other, impulseFrom(impulsesAt(row, e), anchorsAt(row, e)), kept);
         keeps += kept.impulse;
-#ifndef TEXTURES
         putPartners(sphere, e, uint(sphereOf(other)));
-        putOldImpulses(sphere, e, firstPart(kept));
-        putOldAnchors(sphere, e, secondPart(kept));
-#endif
+        putKeptImpulses(sphere, e, firstPart(kept));
+        putKeptAnchors(sphere, e, secondPart(kept));
     }
 #ifdef WALLS
-    int memory = colliderRow(slot);
+    int memory = memoryRow(slot);
     float now = 0.0;
     for (int k = 0; k < MOST_COLLIDERS; ++k) now += length(colliderImpulsesAt(memory, k).xyz);
     part = rememberedOfColliders(total.w, now);
@@ -77,18 +65,12 @@ void main()
         vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
         keeps += push.xyz;
         isHeld = isHeld || push != vec4(0.0);
-#ifndef TEXTURES
         putColliderImpulses(memory, k, push);
         putOldNormals(memory, k, vec4(colliderOf(slot, k).normal, 0.0));
-#endif
     }
 #endif
-#ifdef TEXTURES
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-#else
-    putTotals(slot, 1, vec4(shift, 0.0));
     putMemoryCounts(sphere, uint(listed) | (isHeld ? HELD : 0u));
-#endif
     putWarmStart(sphere, vec4(keeps, part));
 }

@@ -1,7 +1,6 @@
 // The impulse with which a contact begins, from what it remembers of the last step.
 #include "contact/response/pair.glsl"
 #include "contact/response/memory.glsl"
-#pragma reads oldImpulses oldAnchors
 
 int memory;  // of the own sphere
 bool remembers;
@@ -16,18 +15,28 @@ void loadOld(int slot)
 }
 
 #ifdef TEXTURES
-#pragma reads oldLists oldWarmStart
+#pragma reads oldLists oldImpulses oldAnchors oldWarmStart
 
 int partnerAt(int e)
 {
     return int(oldListsAt(memory, e));
 }
+
+ContactImpulse oldImpulse(int e)
+{
+    return impulseFrom(oldImpulsesAt(memory, e), oldAnchorsAt(memory, e));
+}
 #else
-#pragma reads partners
+#pragma reads partners keptImpulses keptAnchors
 
 int partnerAt(int e)
 {
     return int(partnersAt(memory, e));
+}
+
+ContactImpulse oldImpulse(int e)
+{
+    return impulseFrom(keptImpulsesAt(memory, e), keptAnchorsAt(memory, e));
 }
 #endif
 
@@ -44,7 +53,7 @@ ContactImpulse prepare(int slot, int other, out Pair pair)
     int otherMemory = memoryOf(sphereOf(other));
     int place = -1;
     for (int e = 0; e < oldListed; ++e) place = partnerAt(e) == otherMemory ? e : place;
-    ContactImpulse old = impulseFrom(oldImpulsesAt(memory, max(place, 0)), oldAnchorsAt(memory, max(place, 0)));
+    ContactImpulse old = oldImpulse(max(place, 0));
     bool isOld = place >= 0 && old.kind != NO_PART && !isFresh(other);
     // what is remembered is no impact, however fast it closes
     pair = pairOf(slot, other, isOld ? 1e30 : restSpeed);

@@ -2,7 +2,7 @@
 // its memory takes that over. It wakes where its contacts push more than when it came to rest, or much less, or where one has gone
 // and the others push otherwise. That they push a little less is no reason: what is awake between two that rest lets go of how these
 // squeeze it.
-#pragma updates marks memoryCounts partners oldImpulses oldAnchors restLoads
+#pragma updates marks memoryCounts partners keptImpulses keptAnchors restLoads
 #include "contact/response/pair.glsl"
 #include "contact/rest/mark_groups.glsl"
 #pragma reads slots markedSlots warmStart
@@ -30,7 +30,7 @@ ContactImpulse mirrored(int sphere, int other)
     int place = -1;
     for (int e = 0; e < rememberedOf(other); ++e) place = int(partnersAt(other, e)) == sphere ? e : place;
     if (place < 0) return noImpulse(NO_PART);
-    ContactImpulse theirs = impulseFrom(oldImpulsesAt(other, place), oldAnchorsAt(other, place));
+    ContactImpulse theirs = impulseFrom(keptImpulsesAt(other, place), keptAnchorsAt(other, place));
     theirs.impulse = -theirs.impulse;
     theirs.anchor = -theirs.anchor;
     return theirs;
@@ -52,7 +52,7 @@ void add(inout Pushes pushes, vec3 push)
 Pushes pushesOn(int sphere)
 {
     Pushes all = Pushes(vec3(0.0), 0.0);
-    for (int e = 0; e < rememberedOf(sphere); ++e) add(all, oldImpulsesAt(sphere, e).xyz);
+    for (int e = 0; e < rememberedOf(sphere); ++e) add(all, keptImpulsesAt(sphere, e).xyz);
 #ifdef WALLS
     for (int k = 0; k < MOST_COLLIDERS; ++k) add(all, colliderImpulsesAt(sphere, k).xyz);
 #endif
@@ -70,11 +70,11 @@ bool renew(int slot, int sphere)
         bool stays = rests(other);
         hasLost = hasLost || !(stays || isListed(slot, other));
         if (!stays) continue;
-        vec4 first = oldImpulsesAt(sphere, e);
-        vec4 second = oldAnchorsAt(sphere, e);
+        vec4 first = keptImpulsesAt(sphere, e);
+        vec4 second = keptAnchorsAt(sphere, e);
         putPartners(sphere, kept, partner);
-        putOldImpulses(sphere, kept, first);
-        putOldAnchors(sphere, kept, second);
+        putKeptImpulses(sphere, kept, first);
+        putKeptAnchors(sphere, kept, second);
         ++kept;
     }
     for (int e = 0; e < listedOf(slot); ++e) {
@@ -82,8 +82,8 @@ bool renew(int slot, int sphere)
         if (rests(other) || kept >= LIST) continue;
         ContactImpulse theirs = mirrored(sphere, sphereOf(other));
         putPartners(sphere, kept, uint(sphereOf(other)));
-        putOldImpulses(sphere, kept, firstPart(theirs));
-        putOldAnchors(sphere, kept, theirs.kind == PERSISTENT ? vec4(theirs.anchor, theirs.start) : secondPart(theirs));
+        putKeptImpulses(sphere, kept, firstPart(theirs));
+        putKeptAnchors(sphere, kept, theirs.kind == PERSISTENT ? vec4(theirs.anchor, theirs.start) : secondPart(theirs));
         ++kept;
     }
     putMemoryCounts(sphere, uint(kept) | (memoryCountsAt(sphere) & HELD));

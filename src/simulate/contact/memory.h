@@ -13,15 +13,16 @@ namespace shoal {
 // Nothing is remembered: all are empty. Spheres have their numbers of compile/contact_plan.h.
 struct ContactMemory {
     std::vector<uint32_t> counts;  // contacts of each sphere
-    // The contacts of one sphere after another have the other sphere, and an Entry of
-    // shaders/contact/respond.glsl.
+    // The contacts of one sphere after another have the other sphere, and both parts of a contact's impulse
+    // (shaders/contact/response/impulse.glsl).
     std::vector<uint32_t> partners;
     std::vector<glm::vec4> pushes, anchors;
     std::vector<glm::vec4> known;  // N s, of each sphere: the sum of what its contacts remember
-    // Each sphere has what that is on its vertex, m/s^2, and in w as shaders/contact/apply.comp has it; and
-    // where its vertex was and for how long (shaders/contact/rest.comp).
+    // Each sphere has what that is on its vertex, m/s^2, with in w who moves it
+    // (shaders/contact/rest/states.glsl); and its rest pose or, while it rests, its rest load
+    // (shaders/contact/arrays.txt).
     std::vector<glm::vec4> loads, calm;
-    // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s, with in
+    // Each sphere that may lie on colliders has 6 texels of `colliders`, and 3 impulses, N s, with in
     // w how far they push it off, kg m.
     std::vector<glm::vec4> walls, wallPushes;
 

@@ -65,8 +65,8 @@ ContactSlots readSlots(const ContactData& data) {
     for (const uint32_t count : read<uint32_t>(data, data.textures ? "counts" : "memoryCounts"))
         out.counts.push_back(std::min(count & contactsMask, uint32_t(data.listLength)));
     out.lists = readLists(data, data.textures ? "lists" : "partners");
-    out.pushes = read<glm::vec4>(data, data.textures ? "impulses" : "oldImpulses");
-    out.anchors = read<glm::vec4>(data, data.textures ? "anchors" : "oldAnchors");
+    out.pushes = read<glm::vec4>(data, data.textures ? "impulses" : "keptImpulses");
+    out.anchors = read<glm::vec4>(data, data.textures ? "anchors" : "keptAnchors");
     out.known = read<glm::vec4>(data, "warmStart");
     out.loads = read<glm::vec4>(data, "loads");
     out.loads.resize(spheres);
@@ -184,8 +184,8 @@ void writeMemory(ContactData& data, const ContactMemory& memory) {
     write(data, counts, in.counts);
     if (data.textures) write(data, "slots", in.slots);
     writeLists(data, data.textures ? "lists" : "partners", in.lists);
-    write(data, data.textures ? "impulses" : "oldImpulses", in.pushes);
-    write(data, data.textures ? "anchors" : "oldAnchors", in.anchors);
+    write(data, data.textures ? "impulses" : "keptImpulses", in.pushes);
+    write(data, data.textures ? "anchors" : "keptAnchors", in.anchors);
     write(data, "warmStart", in.known);
     write(data, "loads", in.loads);
     if (data.rests) {
