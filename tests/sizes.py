@@ -16,6 +16,8 @@ most_lines, most_function, most_shader = 450, 90, 200
 switch_head = "# What conditions of shaders ask for: the switch | who sets it | which files of shaders read it | when it is set"
 control = re.compile(r"\s*(?:\} )?(?:if|for|while|do|else|switch|try|catch|case|default)\b")
 container = re.compile(r"(?:template <.*> *)?(?:inline )?(?:namespace|struct|class|enum|union|extern \"C\")\b")
+function_word = re.compile(r"(?:[\w:>\]]\s*[&*]{0,2}\s+|[\w>]\s*[&*]{1,2}\s*)"
+                           r"\b(one|at|it|now|with|by|of|is|otherwise|there|both)\b\s*(?:=(?!=)|;|,|\)|\s:\s|\{|\[|\()")
 condition = re.compile(r"^\s*#\s*(?:if|elif|ifdef|ifndef)\b(.*)")
 
 
@@ -61,6 +63,17 @@ def functions(text):
             head = []
 
 
+def function_words(files):
+    """How many names are function words, where they are declared."""
+    found = 0
+    for file in files:
+        text = re.sub(r'"(?:[^"\\]|\\.)*"', '""', re.sub(r"//.*", "", text_of(file)))
+        for match in function_word.finditer(text):
+            before = re.search(r"(\w+)\W*$", text[:match.start(1)])
+            found += not (before and before[1] in ("return", "case", "else", "throw", "new", "delete"))
+    return found
+
+
 def names_in(condition_text):
     words = re.findall(r"[A-Za-z_]\w*", condition_text)
     return [word for word in words if word != "defined"]
@@ -98,13 +111,13 @@ def measure():
     rooms = collections.defaultdict(list)
     for file in files_of("src", ".h", ".cpp"):
         rooms[room_of(file, "src")].append(file)
-    rows.append("room | lines | largest file | headers | sources without a header of their name")
+    rows.append("room | lines | largest file | headers | sources without a header of their name | names that are function words")
     for room, files in sorted(rooms.items()):
         lines = {f: text_of(f).count("\n") for f in files}
         largest = max(lines.values())
         headers = {f.with_suffix("") for f in files if f.suffix == ".h"}
         alone = [f for f in files if f.suffix == ".cpp" and f.with_suffix("") not in headers]
-        rows.append(f"{room} | {sum(lines.values())} | {largest} | {len(headers)} | {len(alone)}")
+        rows.append(f"{room} | {sum(lines.values())} | {largest} | {len(headers)} | {len(alone)} | {function_words(files)}")
         total += sum(lines.values())
     for file in files_of("src", ".h", ".cpp") + files_of("tests", ".h", ".cpp"):
         text = text_of(file)
@@ -115,13 +128,13 @@ def measure():
             if length > most_function:
                 beyond.append(f"{where}: {name} has {length} lines; at most {most_function} are allowed")
     readers, _, conditions = read_switches()
-    rows.append("shaders | lines | largest file | files | conditions")
+    rows.append("shaders | lines | largest file | files | conditions | names that are function words")
     rooms = collections.defaultdict(list)
     for file in shader_files():
         rooms[room_of(file, "shaders")].append(file)
     for room, files in sorted(rooms.items()):
         lines = {f: text_of(f).count("\n") for f in files}
-        rows.append(f"{room} | {sum(lines.values())} | {max(lines.values())} | {len(files)} | {conditions[room]}")
+        rows.append(f"{room} | {sum(lines.values())} | {max(lines.values())} | {len(files)} | {conditions[room]} | {function_words(files)}")
         total += sum(lines.values())
         for file, count in lines.items():
             if count > most_shader:

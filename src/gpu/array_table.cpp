@@ -24,9 +24,9 @@ std::vector<std::string> split(std::string_view text, char by) {
     return out;
 }
 
-// Takes a number from the front of a text; without one `otherwise`.
-int takeNumber(std::string_view& text, int otherwise) {
-    int out = otherwise;
+// Takes a number from the front of a text; without one `usual`.
+int takeNumber(std::string_view& text, int usual) {
+    int out = usual;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
     text.remove_prefix(size_t(read.ptr - text.data()));
     return out;

@@ -58,13 +58,17 @@ void main()
     for (int i = first; i < end; ++i) slot += int(membersAt(i) < sphere);
     putSorted(slot, uvec2(key, sphere));
     if (onlyKeys) return;
-    putPlaces(slot, spherePlacesAt(int(sphere)));
-    putCells(slot, sphereCellsAt(int(sphere)));
+    uvec4 place = spherePlacesAt(int(sphere));
+    uvec4 cell = sphereCellsAt(int(sphere));
+    putPlaces(slot, place);
+    putCells(slot, cell);
 #else
     uvec2 pair = sortedAt(slot);
     uint sphere = pair.y;
-    newPlaces[slot] = asDoubles(spherePlacesAt(int(sphere)));
-    newCells[slot] = asDoubles(sphereCellsAt(int(sphere)));
+    uvec4 place = spherePlacesAt(int(sphere));  // both before a store, which a compiler moves no load across
+    uvec4 cell = sphereCellsAt(int(sphere));
+    newPlaces[slot] = asDoubles(place);
+    newCells[slot] = asDoubles(cell);
     writeStarts(slot, pair.x, numbers, keys);
 #endif
     putSlots(sphere, uint(slot));

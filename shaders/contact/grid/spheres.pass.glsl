@@ -67,7 +67,7 @@ void main()
     putKey(sphere, cellKey(place.cell, uint(keys - 1)));
     if (onlyKeys) return;
 #ifdef RESTING
-    rests = isResting(loadsAt(sphere).w) && own.there && !own.fresh && !wakes;
+    rests = isResting(loadsAt(sphere).w) && own.lives && !own.fresh && !wakes;
     if (rests) own.velocity = vec3(0.0);
     if (!rests) putLoads(sphere, vec4(0.0));
 #elif defined(REMEMBERS)

@@ -16,7 +16,7 @@ struct StateSphere {
     vec3 velocity;  // m/s
     float weight;   // 1/kg
     float radius;   // m
-    bool there;     // its molecule lives
+    bool lives;     // its molecule lives
     bool fresh;     // and has been born since the last contact step
 };
 
@@ -28,7 +28,7 @@ StateSphere sphereOfState(int molecule, int k)
     vec4 shape = shapeOf(k);
     StateSphere own;
     own.anchor = record.xyz;
-    own.there = true;
+    own.lives = true;
     own.fresh = false;
 #ifdef TRIANGLES
     ivec3 corners = k < VERTICES ? ivec3(k) : ivec3(shape.xyz);
@@ -59,9 +59,9 @@ StateSphere sphereOfState(int molecule, int k)
 #ifdef CONTACT_GROWTH
     own.radius *= mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min(life.x / max(life.y, 1e-9), 1.0));
 #endif
-    own.there = life.y > 0.0;
+    own.lives = life.y > 0.0;
     own.fresh = life.x <= contactStep * 1.0001;
-    if (!own.there) own.radius = 0.0;
+    if (!own.lives) own.radius = 0.0;
 #endif
     return own;
 }
@@ -98,7 +98,7 @@ BodySphere bodySphereOf(int molecule, vec3 place)
 CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 {
     CellPlace place = cellPlace(own.anchor, own.position + shift, cell);
-    if (!own.there) place.cell = cellApart(sphere);
+    if (!own.lives) place.cell = cellApart(sphere);
     return place;
 }
 

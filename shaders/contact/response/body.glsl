@@ -16,29 +16,29 @@ struct BodyMotion {
 };
 
 // Returns how an impulse at a sphere changes the motion of its body.
-BodyMotion bodyMotion(BodySphere at, vec3 impulse)
+BodyMotion bodyMotion(BodySphere body, vec3 impulse)
 {
-    return BodyMotion(impulse * at.perMass, at.perInertia * cross(at.arm, impulse));
+    return BodyMotion(impulse * body.perMass, body.perInertia * cross(body.arm, impulse));
 }
 
-vec3 motionAt(BodySphere at, BodyMotion motion)
+vec3 motionAt(BodySphere body, BodyMotion motion)
 {
-    return motion.shift + cross(motion.turn, at.arm);
+    return motion.shift + cross(motion.turn, body.arm);
 }
 
 // Returns the way of a motion that is not small, m, turned so that no body is stretched (Cayley's rotation).
-vec3 wayAt(BodySphere at, BodyMotion motion)
+vec3 wayAt(BodySphere body, BodyMotion motion)
 {
-    vec3 across = cross(motion.turn, at.arm);
+    vec3 across = cross(motion.turn, body.arm);
     vec3 halfTurn = 0.5 * motion.turn;
     return motion.shift + (across + cross(halfTurn, across)) / (1.0 + dot(halfTurn, halfTurn));
 }
 
 // How a sphere's body is kept, in three 4-vectors.
-vec4[3] packedBody(BodySphere at)
+vec4[3] packedBody(BodySphere body)
 {
-    mat3 t = at.perInertia;
-    return vec4[3](vec4(at.arm, at.perMass), vec4(t[0][0], t[1][1], t[2][2], at.turning), vec4(t[1][2], t[0][2], t[0][1], 0.0));
+    mat3 t = body.perInertia;
+    return vec4[3](vec4(body.arm, body.perMass), vec4(t[0][0], t[1][1], t[2][2], body.turning), vec4(t[1][2], t[0][2], t[0][1], 0.0));
 }
 
 #ifdef BODIES
@@ -51,9 +51,9 @@ BodySphere bodySphereAt(int sphere)
     return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodiesAt(sphere, 2).xyz), d.w);
 }
 
-void add(inout BodyMotion motion, BodySphere at, vec3 impulse)
+void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
 {
-    BodyMotion more = bodyMotion(at, impulse);
+    BodyMotion more = bodyMotion(body, impulse);
     motion.shift += more.shift;
     motion.turn += more.turn;
 }

@@ -86,18 +86,18 @@ Total totalAt(int sphere)
 {
     int slot = slotOf(sphere);
     if (countsAt(slot) == 0u) return noTotal();
-    Total now = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
+    Total total = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
 #if defined(APPLIES) && defined(TEXTURES)
-    now.load = warmStartAt(slot).xyz;
+    total.load = warmStartAt(slot).xyz;
 #elif defined(APPLIES)
-    now.load = warmStartAt(sphere).xyz;
+    total.load = warmStartAt(sphere).xyz;
 #else
     if (momentum != 0.0) {
-        now.impulse += (now.impulse - earlierTotalsAt(slot, 0).xyz) * momentum;
-        now.shift += (now.shift - earlierTotalsAt(slot, 1).xyz) * momentum;
+        total.impulse += (total.impulse - earlierTotalsAt(slot, 0).xyz) * momentum;
+        total.shift += (total.shift - earlierTotalsAt(slot, 1).xyz) * momentum;
     }
 #endif
-    return now;
+    return total;
 }
 
 #ifdef RIGID
@@ -117,10 +117,10 @@ BodyTotal totalOfBody(int molecule)
     for (int k = 0; k < SPHERES; ++k) {
         int sphere = moleculeSphere(molecule) + k;
         Total total = totalAt(sphere);
-        BodySphere at = bodySphereAt(sphere);
-        add(sum.impulse, at, total.impulse);
-        add(sum.shift, at, total.shift);
-        add(sum.load, at, total.load);
+        BodySphere own = bodySphereAt(sphere);
+        add(sum.impulse, own, total.impulse);
+        add(sum.shift, own, total.shift);
+        add(sum.load, own, total.load);
     }
     return sum;
 }
@@ -128,13 +128,13 @@ BodyTotal totalOfBody(int molecule)
 // Returns how that changes sphere k of its molecule.
 Total changeIn(BodyTotal body, int molecule, int k)
 {
-    BodySphere at = bodySphereAt(moleculeSphere(molecule) + k);
+    BodySphere own = bodySphereAt(moleculeSphere(molecule) + k);
 #ifdef APPLIES
-    vec3 shift = wayAt(at, body.shift);
+    vec3 shift = wayAt(own, body.shift);
 #else
-    vec3 shift = motionAt(at, body.shift);
+    vec3 shift = motionAt(own, body.shift);
 #endif
-    return Total(motionAt(at, body.impulse), shift, motionAt(at, body.load));
+    return Total(motionAt(own, body.impulse), shift, motionAt(own, body.load));
 }
 
 // Returns how they change sphere k of a molecule.

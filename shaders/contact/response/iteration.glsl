@@ -12,15 +12,15 @@ uniform float momentum;  // Nesterov's: by how much of its last change an iterat
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
 struct Moved {
     vec3 velocity;  // m/s
-    vec3 by;        // m
+    vec3 move;        // m
 };
 
 float ownCount;
 Moved ownMoved;
 
-vec3 ahead(vec3 now, vec3 before)
+vec3 ahead(vec3 latest, vec3 before)
 {
-    return momentum == 0.0 ? now : now + (now - before) * momentum;  // nobody may have written what was before
+    return momentum == 0.0 ? latest : latest + (latest - before) * momentum;  // nobody may have written what was before
 }
 
 #if defined(TEXTURES) && !defined(SPREAD)
@@ -60,7 +60,7 @@ Push solved(Constraint asked, Moved other, vec4 push, vec4 before)
     vec3 n = asked.normal;
     vec3 wanted = pairImpulse(ownMoved.velocity - other.velocity, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
     vec3 taken = withinFriction(wanted, n, asked.friction);
-    float lacks = asked.lacks - dot(ownMoved.by - other.by, n);
+    float lacks = asked.lacks - dot(ownMoved.move - other.move, n);
     float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
     return Push(taken, max(apart, 0.0), taken == wanted);
 }

@@ -149,21 +149,21 @@ Pair pairOf(int slot, int other, float bounceFrom)
     return pair;
 }
 
-// Returns how large an impulse may be that the next step begins with, N s, of one that began with `start` and is `now`. What has
+// Returns how large an impulse may be that the next step begins with, N s, of one that began with `start` and has this `size`. What has
 // stopped a fall is not what holds up what lies there, so memory takes in a tenth of what it has grown by, and where it carried
 // little not much more than a weight. With half of it, molecules deep in a pile are shaken by what is remembered of their many
 // contacts without balance. `weight`: 1/kg, of all that it moves.
-float mostRemembered(float start, float now, float weight)
+float mostRemembered(float start, float size, float weight)
 {
-    return min(start + 0.1 * max(now - start, 0.0), 1.5 * start + restSpeed / weight);
+    return min(start + 0.1 * max(size - start, 0.0), 1.5 * start + restSpeed / weight);
 }
 
 // Returns a contact's impulse as the next step begins with it.
 ContactImpulse remembered(ContactImpulse known, Sphere other)
 {
-    float now = length(known.impulse);
-    float most = known.kind == PERSISTENT ? mostRemembered(known.start, now, own.weight + other.weight) : 0.0;
-    known.impulse *= min(1.0, most / max(now, 1e-30));
+    float size = length(known.impulse);
+    float most = known.kind == PERSISTENT ? mostRemembered(known.start, size, own.weight + other.weight) : 0.0;
+    known.impulse *= min(1.0, most / max(size, 1e-30));
     if (known.kind == PERSISTENT) known.start = length(known.impulse);
     return known;
 }

@@ -153,7 +153,11 @@ void main()
     putAllColliderImpulses(memory, pushes);
 #endif
     impulse -= acted.xyz;
-    putWarmStart(memory, vec4(acted.xyz, 0.0));
+#ifdef TEXTURES
+    putWarmStart(slot, vec4(acted.xyz, 0.0));
+#else
+    if (!remembers) putWarmStart(memory, vec4(0.0));
+#endif
     putTotals(slot, 0, vec4(impulse, start));
     putTotals(slot, 1, vec4(shift, 0.0));
 #ifdef SPREAD

@@ -109,11 +109,11 @@ void main()
     for (int k = 0; k < MOST_COLLIDERS; ++k) {
         NearCollider near = colliderOf(slot, k);
         if (!pressesOn(near)) break;
-        vec4 now = colliderImpulsesAt(row, k);
-        next[k] = solveCollider(near, now, earlierColliderImpulsesAt(row, k));
+        vec4 push = colliderImpulsesAt(row, k);
+        next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
         impulse += next[k].xyz;
         shift += near.normal * next[k].w;
-        putEarlierColliderImpulses(row, k, now);
+        putEarlierColliderImpulses(row, k, push);
         putColliderImpulses(row, k, next[k]);
     }
     putAllNextColliderImpulses(slot, next);

@@ -103,11 +103,11 @@ void main()
         putRestLoads(sphere, vec4(restLoadsAt(sphere).xyz, was));
     }
     bool hasLost = renew(slot, sphere);
-    Pushes now = pushesOn(sphere);
+    Pushes pushes = pushesOn(sphere);
     float most = wakeSpeed / withoutFlag(motionAt(slot).w);  // infinite where it is held
-    bool more = now.lengths - was > max(most, 0.25 * was);
-    bool less = was - now.lengths > max(7.5 * most, 0.4 * was);  // three quarters of its weight
+    bool more = pushes.lengths - was > max(most, 0.25 * was);
+    bool less = was - pushes.lengths > max(7.5 * most, 0.4 * was);  // three quarters of its weight
     vec3 before = warmStartAt(sphere).xyz;
-    bool differs = length(now.sum - before) > max(most, 0.1 * length(before));
+    bool differs = length(pushes.sum - before) > max(most, 0.1 * length(before));
     if (more || less || (hasLost && differs)) putMarks(slot, marksAt(slot) | LOAD_CHANGED);
 }

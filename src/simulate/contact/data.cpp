@@ -131,10 +131,11 @@ gpu::ProgramOptions ContactData::options(const std::string& file, const std::str
     (textures ? out.fragment : out.compute) = concat(file, ".pass.glsl");
     out.label = concat("contact ", label);
     out.arrays = &table;
-    out.defines = {concat("LIST ", listLength), concat("MOST_COLLIDERS ", ContactPlan::mostColliders)};
+    out.defines = {concat("MOST_COLLIDERS ", ContactPlan::mostColliders)};
     const auto define = [&](bool need, const std::string& name) {
         if (need) out.defines.push_back(name);
     };
+    define(textures, concat("LIST ", listLength));
     define(remembers, "REMEMBERS");
     define(rests, "RESTING");
     define(staggers, "STAGGERED");
@@ -152,6 +153,7 @@ Program ContactData::stage(const std::string& file, const std::vector<std::strin
     const auto define = [&](bool need, const std::string& name) {
         if (need) made.defines.push_back(name);
     };
+    define(!textures, concat("LIST ", listLength));
     define(true, concat("NEIGHBORS ", contact->settings.neighbors));
     define(true, concat("NEAR ", ContactPlan::near));
     define(contact->settings.fastest.has_value(), "SWEPT");
@@ -165,18 +167,19 @@ Program ContactData::stage(const std::string& file, const std::vector<std::strin
 
 Program ContactData::groupStage(const ContactGroup& group, const std::string& file,
                                 const std::vector<std::string>& defines) const {
-    const GroupPlan& of = planOf(group);
-    gpu::ProgramOptions made = options(file, concat(file.substr(file.rfind('/') + 1), " of ", of.name));
+    const GroupPlan& groupPlan = planOf(group);
+    gpu::ProgramOptions made =
+        options(file, concat(file.substr(file.rfind('/') + 1), " of ", groupPlan.name));
     for (const std::vector<std::string>& more : {state->defines(group.group), group.defines(), defines})
         made.defines.insert(made.defines.end(), more.begin(), more.end());
     const auto define = [&](bool need, const std::string& name) {
         if (need) made.defines.push_back(name);
     };
-    define(true, concat("VERTICES ", of.vertexCount));
+    define(true, concat("VERTICES ", groupPlan.vertexCount));
     define(true, concat("SPHERES ", group.spheresOf));
     define(group.triangles, "TRIANGLES");
-    define(of.needs.pins, "PINS");
-    define(of.needs.release, "RELEASE");
+    define(groupPlan.needs.pins, "PINS");
+    define(groupPlan.needs.release, "RELEASE");
     define(rigid, "BODIES");
     define(isRigid(group), "RIGID");
     made.generated = {{"generated/colliders.glsl", plan->colliders.source}};

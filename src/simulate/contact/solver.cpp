@@ -148,7 +148,7 @@ void ContactSolver::solve(const ContactTimes& times, int iteration) {
 
 void ContactSolver::store(const ContactTimes& times) {
     data_->runResponding(data_->withResponse(store_, times));
-    data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
+    if (data_->textures) data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
 }
 
 void ContactSolver::apply(const ContactTimes& times) {

@@ -1,0 +1,577 @@
+#version 430 core
+#define LIST 24
+#define MOST_COLLIDERS 3
+#define UINTS usamplerBuffer
+#define FLOATS samplerBuffer
+#define fetch(values, i) texelFetch(values, i)
+uniform int listStride;
+layout(std430) buffer Impulses { vec4 impulsesBuffer[]; };
+#define putImpulses(i, e, value) impulsesBuffer[(e) * listStride + (i)] = (value)
+vec4 impulsesAt(int i, int e)
+{
+    return impulsesBuffer[(e) * listStride + (i)];
+}
+layout(std430) buffer EarlierImpulses { vec4 earlierImpulsesBuffer[]; };
+#define putEarlierImpulses(i, e, value) earlierImpulsesBuffer[(e) * listStride + (i)] = (value)
+vec4 earlierImpulsesAt(int i, int e)
+{
+    return earlierImpulsesBuffer[(e) * listStride + (i)];
+}
+uniform int firstNumber;
+uniform int numbers;
+layout(local_size_x = 64) in;
+int ownLane()
+{
+    return min(int(gl_GlobalInvocationID.x), numbers - 1);
+}
+bool isBehindLast()
+{
+    return int(gl_GlobalInvocationID.x) >= numbers;
+}
+const uint CONTACTS = 0x1fffffffu;
+const uint HELD = 0x20000000u;
+const uint RESPONDS = 0x40000000u;
+bool isActedOn(uint counted)
+{
+    return (counted & ~RESPONDS) != 0u;
+}
+const uint FLAG = 0x80000000u;
+uint withFlag(float number, bool isSet)
+{
+    return floatBitsToUint(number) | (isSet ? FLAG : 0u);
+}
+bool hasFlag(uint word)
+{
+    return (word & FLAG) != 0u;
+}
+float withoutFlag(uint word)
+{
+    return uintBitsToFloat(word & ~FLAG);
+}
+const uint TOUCHED = 1u;
+const uint BESIDE = 2u;
+const uint LOAD_CHANGED = 4u;
+const uint STRUCK = 8u;
+const uint WOKEN = 0x80000000u;
+bool marksWoken(uint mark)
+{
+    return mark >= STRUCK;
+}
+uniform usamplerBuffer responding;
+uint respondingAt(int i)
+{
+    return texelFetch(responding, i).x;
+}
+int ownSlot(int count)
+{
+    int lane = int(gl_GlobalInvocationID.x);
+    return lane < int(respondingAt(0)) ? int(respondingAt(1 + lane)) : -1;
+}
+int ownRow(int slot)
+{
+    return int(gl_GlobalInvocationID.x);
+}
+const int localCells = 4;
+struct CellPlace {
+    ivec3 cell;
+    vec3 local;
+};
+CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
+{
+    vec3 base = floor(clamp(anchor / cell, -1e9f, 1e9f));
+    vec3 rest = (anchor - base * cell) + position;
+    vec3 steps = floor(clamp(rest / cell, -1e9f, 1e9f));
+    ivec3 index = ivec3(base) + ivec3(steps);
+    vec3 inCell = clamp(rest - steps * cell, 0.0f, cell);
+    return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
+}
+ivec3 cellApart(int sphere)
+{
+    return ivec3(0x40000000, sphere, 0);
+}
+vec3 localDifference(vec3 a, vec3 b, float cell)
+{
+    vec3 d = a - b;
+    float period = float(localCells) * cell;
+    return d - floor(d / period + 0.5f) * period;
+}
+uint cellKey(ivec3 cell, uint mask)
+{
+    ivec3 block = cell >> 3;
+    ivec3 inBlock = cell & 7;
+    uint h = uint(block.x) * 3266489917u ^ uint(block.y) * 2654435769u ^ (uint(block.z) * 2246822507u + 374761393u);
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return (h + uint(inBlock.x + 8 * inBlock.y + 64 * inBlock.z)) & mask;
+}
+uniform usamplerBuffer sorted;
+uvec2 sortedAt(int i)
+{
+    return texelFetch(sorted, i).xy;
+}
+uniform usamplerBuffer places;
+uvec4 placesAt(int i)
+{
+    return texelFetch(places, i);
+}
+uniform usamplerBuffer cells;
+uvec4 cellsAt(int i)
+{
+    return texelFetch(cells, i);
+}
+uniform int count;
+uniform int keyMask;
+uniform float cell;
+int sphereOf(int slot)
+{
+    return int(sortedAt(slot).y);
+}
+uniform usamplerBuffer sphereMotions;
+uvec4 sphereMotionsAt(int i)
+{
+    return texelFetch(sphereMotions, i);
+}
+int memoryRow(int slot)
+{
+    return sphereOf(slot);
+}
+uvec4 motionAt(int slot)
+{
+    return sphereMotionsAt(sphereOf(slot));
+}
+vec3 placeAt(int slot)
+{
+    return uintBitsToFloat(placesAt(slot).xyz);
+}
+vec3 velocityAt(int slot)
+{
+    return uintBitsToFloat(motionAt(slot).xyz);
+}
+bool isFresh(int slot)
+{
+    return hasFlag(motionAt(slot).w);
+}
+float radiusAt(int slot)
+{
+    return withoutFlag(cellsAt(slot).w);
+}
+bool rested(int slot)
+{
+    return hasFlag(cellsAt(slot).w);
+}
+int listedIn(uint counted)
+{
+    return min(int(counted & CONTACTS), LIST);
+}
+bool rests(int slot)
+{
+    return false;
+}
+const int NO_PART = 0;
+const int IMPACT = 1;
+const int PERSISTENT = 2;
+struct ContactImpulse {
+    vec3 impulse;
+    float multiplier;
+    bool sticks;
+    vec3 anchor;
+    float start;
+    int kind;
+};
+vec4 firstPart(ContactImpulse c)
+{
+    return vec4(c.impulse, c.sticks ? c.multiplier : -max(c.multiplier, 1e-30));
+}
+vec4 secondPart(ContactImpulse c)
+{
+    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : c.kind == IMPACT ? 0.0 : -1.0);
+}
+ContactImpulse impulseFrom(vec4 first, vec4 second)
+{
+    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : NO_PART;
+    return ContactImpulse(first.xyz, abs(first.w), first.w >= 0.0, second.xyz, second.w, kind);
+}
+ContactImpulse noImpulse(int kind)
+{
+    return ContactImpulse(vec3(0.0), 0.0, true, vec3(0.0), 0.0, kind);
+}
+const float restingOverlap = 0.005f;
+struct PairContact {
+    vec3 normal;
+    float since;
+    float depth;
+    float speed;
+    bool impact;
+};
+PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
+{
+    float squared = dot(d, d);
+    float along = dot(d, u);
+    float fast = dot(u, u);
+    float inside = reach * reach - squared;
+    float under = along * along + fast * inside;
+    bool met = inside > 0.0f || (along > 0.0f && under > 0.0f);
+    float root = sqrt(max(under, 0.0f));
+    float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
+    vec3 touch = (d - u * since) / reach;
+    float touchSpeed = dot(touch, u);
+    bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
+    float apart = sqrt(squared);
+    vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    return PairContact(impact ? touch : now, impact ? since : 0.0f, reach - apart,
+                       impact ? touchSpeed : dot(now, u), impact);
+}
+vec3 pairImpulse(vec3 u, vec3 n, float target, vec3 pushed, vec2 w)
+{
+    float along = dot(u, n);
+    return pushed + n * ((target - along) / w.x) - (u - n * along) / w.y;
+}
+vec3 withinFriction(vec3 impulse, vec3 n, float friction)
+{
+    float along = dot(impulse, n);
+    vec3 across = impulse - n * along;
+    float most = friction * max(along, 0.0f);
+    float grip = sqrt(dot(across, across));
+    return along >= 0.0f && grip <= most ? impulse : n * max(along, 0.0f) + across * (most / max(grip, 1e-30f));
+}
+const float frictionStep = 0.4f;
+struct ContactSum {
+    vec3 diagonal;
+    vec3 beside;
+    float number;
+};
+ContactSum noContacts()
+{
+    return ContactSum(vec3(0.0f), vec3(0.0f), 0.0f);
+}
+ContactSum withContact(ContactSum sum, vec3 n, vec2 parts)
+{
+    float across = frictionStep * parts.y;
+    float along = parts.x - across;
+    return ContactSum(sum.diagonal + n * n * along + across, sum.beside + vec3(n.y * n.z, n.x * n.z, n.x * n.y) * along,
+                      sum.number + 1.0f);
+}
+ContactSum bothSums(ContactSum a, ContactSum b)
+{
+    return ContactSum(a.diagonal + b.diagonal, a.beside + b.beside, a.number + b.number);
+}
+mat3 symmetric(vec3 d, vec3 o)
+{
+    return mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z);
+}
+mat3 matrixOf(ContactSum sum)
+{
+    return symmetric(sum.diagonal, sum.beside);
+}
+float traceOf(mat3 a, mat3 b)
+{
+    mat3 t = transpose(b);
+    return dot(a[0], t[0]) + dot(a[1], t[1]) + dot(a[2], t[2]);
+}
+float effectiveCount(ContactSum sum)
+{
+    mat3 squared = matrixOf(sum);
+    squared = squared * squared;
+    mat3 fourth = squared * squared;
+    return sum.number < 1.5f ? 1.0f : max(sqrt(sqrt(sqrt(traceOf(fourth, fourth)))), 1.01f);
+}
+float effectiveCount(mat3 a, mat3 b, mat3 c, mat3 d)
+{
+    for (int i = 0; i < 2; ++i) {
+        mat3 a0 = a;
+        mat3 b0 = b;
+        mat3 c0 = c;
+        a = a0 * a0 + b0 * c0;
+        b = a0 * b0 + b0 * d;
+        c = c0 * a0 + d * c0;
+        d = c0 * b0 + d * d;
+    }
+    return max(sqrt(sqrt(sqrt(traceOf(a, a) + 2.0f * traceOf(b, c) + traceOf(d, d)))), 1.01f);
+}
+bool isAlone(float count)
+{
+    return count < 1.003f;
+}
+uniform usamplerBuffer counts;
+uint countsAt(int i)
+{
+    return texelFetch(counts, i).x;
+}
+uniform usamplerBuffer lists;
+uint listsAt(int i, int e)
+{
+    return texelFetch(lists, (e) * listStride + (i)).x;
+}
+uniform samplerBuffer materials;
+vec4 materialsAt(int i)
+{
+    return texelFetch(materials, i);
+}
+uniform int groupCount;
+uniform float stepTime;
+uniform float restSpeed;
+struct Sphere {
+    vec3 place;
+    uint label;
+    vec3 velocity;
+    float weight;
+    float radius;
+    bool fresh;
+    bool rests;
+};
+Sphere sphereAt(int slot)
+{
+    uvec4 place = placesAt(slot);
+    uvec4 motion = motionAt(slot);
+    bool stays = rests(slot);
+    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
+                  radiusAt(slot), hasFlag(motion.w), stays);
+}
+vec2 materialOf(Sphere a, Sphere b)
+{
+    return materialsAt(int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
+}
+int listedOf(int slot)
+{
+    return listedIn(countsAt(slot));
+}
+bool holds(int slot, int other)
+{
+    int listed = int(countsAt(slot) & CONTACTS);
+    bool found = listed <= LIST;
+    int e = found ? LIST : 0;
+    while (e < LIST) {
+        found = found || int(listsAt(slot, e)) == other;
+        ++e;
+    }
+    return found;
+}
+struct Pair {
+    Sphere sphere;
+    vec3 apart;
+    PairContact contact;
+    bool meets;
+    vec2 material;
+};
+Sphere own;
+void loadSphere(int slot)
+{
+    own = sphereAt(slot);
+}
+vec2 ownWeights(vec3 n)
+{
+    return vec2(own.weight);
+}
+uniform usamplerBuffer effectiveCounts;
+uint effectiveCountsAt(int i)
+{
+    return texelFetch(effectiveCounts, i).x;
+}
+float effectiveCountOf(int slot, Sphere sphere)
+{
+    return sphere.rests ? 1.0 : uintBitsToFloat(effectiveCountsAt(slot));
+}
+vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
+{
+    vec2 other = vec2(pair.sphere.weight);
+    return ownWeights(n) * effective.x + other * effective.y;
+}
+Pair pairOf(int slot, int other, float bounceFrom)
+{
+    Pair pair;
+    pair.sphere = sphereAt(other);
+    pair.apart = localDifference(own.place, pair.sphere.place, cell);
+    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
+                               bounceFrom, slot < other ? 1.0 : -1.0);
+    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
+    pair.material = materialOf(own, pair.sphere);
+    return pair;
+}
+float mostRemembered(float start, float size, float weight)
+{
+    return min(start + 0.1 * max(size - start, 0.0), 1.5 * start + restSpeed / weight);
+}
+ContactImpulse remembered(ContactImpulse known, Sphere other)
+{
+    float size = length(known.impulse);
+    float most = known.kind == PERSISTENT ? mostRemembered(known.start, size, own.weight + other.weight) : 0.0;
+    known.impulse *= min(1.0, most / max(size, 1e-30));
+    if (known.kind == PERSISTENT) known.start = length(known.impulse);
+    return known;
+}
+bool isDeep(PairContact contact, float reach)
+{
+    return contact.depth > 0.25 * reach;
+}
+void leaveAsCome(inout Pair pair, vec3 anchor)
+{
+    float reach = own.radius + pair.sphere.radius;
+    if (pair.contact.impact || !isDeep(pair.contact, reach)) return;
+    vec3 n = anchor / max(length(anchor), 1e-30);
+    pair.contact.normal = n;
+    pair.contact.depth = reach - dot(pair.apart, n);
+    pair.contact.speed = dot(own.velocity - pair.sphere.velocity, n);
+}
+Pair pairAs(int slot, int other, ContactImpulse begun)
+{
+    Pair pair = pairOf(slot, other, begun.kind == PERSISTENT ? 1e30 : restSpeed);
+    pair.meets = pair.meets && begun.kind != NO_PART;
+    leaveAsCome(pair, begun.anchor);
+    return pair;
+}
+struct Constraint {
+    vec3 normal;
+    float target;
+    vec2 weights;
+    float lacks;
+    float friction;
+};
+Constraint constraintFrom(vec4 normal, vec4 weights)
+{
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
+}
+const float overRelaxed = 1.3;
+const float pushSpeed = 1.0;
+float partingSpeed(float depth, float reach)
+{
+    return (min(depth, 0.0) + clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime)) / stepTime;
+}
+float lacking(float depth, float reach)
+{
+    return min(depth - restingOverlap * reach, pushSpeed * stepTime);
+}
+vec2 stepWeights(vec2 weights, float count)
+{
+    return isAlone(count) ? weights : weights / vec2(overRelaxed, overRelaxed * frictionStep);
+}
+Constraint constrain(int slot, int other, ContactImpulse begun)
+{
+    Pair pair = pairAs(slot, other, begun);
+    PairContact contact = pair.contact;
+    vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
+    vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
+    float reach = own.radius + pair.sphere.radius;
+    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach);
+    float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
+    return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
+}
+uniform samplerBuffer totals;
+vec4 totalsAt(int i, int k)
+{
+    return texelFetch(totals, 2 * (i) + (k));
+}
+uniform samplerBuffer earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, 2 * (i) + (k));
+}
+uniform float momentum;
+struct Moved {
+    vec3 velocity;
+    vec3 move;
+};
+float ownCount;
+Moved ownMoved;
+vec3 ahead(vec3 latest, vec3 before)
+{
+    return momentum == 0.0 ? latest : latest + (latest - before) * momentum;
+}
+uniform samplerBuffer velocities;
+vec4 velocitiesAt(int i, int k)
+{
+    return texelFetch(velocities, 2 * (i) + (k));
+}
+Moved movedAt(int slot)
+{
+    if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
+    return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
+}
+void loadOwn(int slot)
+{
+    loadSphere(slot);
+    ownCount = effectiveCountOf(slot, own);
+    ownMoved = movedAt(slot);
+}
+struct Push {
+    vec3 impulse;
+    float apart;
+    bool sticks;
+};
+Push solved(Constraint asked, Moved other, vec4 push, vec4 before)
+{
+    vec3 n = asked.normal;
+    vec3 wanted = pairImpulse(ownMoved.velocity - other.velocity, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
+    vec3 taken = withinFriction(wanted, n, asked.friction);
+    float lacks = asked.lacks - dot(ownMoved.move - other.move, n);
+    float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
+    return Push(taken, max(apart, 0.0), taken == wanted);
+}
+vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
+{
+    if (asked.friction < 0.0) return vec4(0.0);
+    Push next = solved(asked, movedAt(other), push, before);
+    return firstPart(ContactImpulse(next.impulse, next.apart, next.sticks, vec3(0.0), 0.0, PERSISTENT));
+}
+uniform samplerBuffer normals;
+vec4 normalsAt(int i, int e)
+{
+    return texelFetch(normals, (e) * listStride + (i));
+}
+uniform samplerBuffer weights;
+vec4 weightsAt(int i, int e)
+{
+    return texelFetch(weights, (e) * listStride + (i));
+}
+Constraint constraintOf(int slot, int e)
+{
+    return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
+}
+vec4 solveEntry(int slot, int e, out vec3 normal)
+{
+    int row = ownRow(slot);
+    Constraint asked = constraintOf(slot, e);
+    normal = asked.normal;
+    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    putEarlierImpulses(row, e, next);
+    return next;
+}
+uniform samplerBuffer warmStart;
+vec4 warmStartAt(int i)
+{
+    return texelFetch(warmStart, i);
+}
+layout(std430) writeonly buffer NextTotals { vec4 nextTotalsBuffer[]; };
+#define putNextTotals(i, k, value) nextTotalsBuffer[2 * (i) + (k)] = (value)
+void putAllNextTotals(int i, vec4 values[2])
+{
+    for (int k = 0; k < 2; ++k) putNextTotals(i, k, values[k]);
+}
+layout(std430) writeonly buffer NextVelocities { vec4 nextVelocitiesBuffer[]; };
+#define putNextVelocities(i, k, value) nextVelocitiesBuffer[2 * (i) + (k)] = (value)
+void putAllNextVelocities(int i, vec4 values[2])
+{
+    for (int k = 0; k < 2; ++k) putNextVelocities(i, k, values[k]);
+}
+uniform float nextMomentum;
+void main()
+{
+    int slot = ownSlot(count);
+    if (slot < 0) return;
+    loadOwn(slot);
+    int listed = listedOf(slot);
+    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
+    vec3 shift = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        vec3 normal;
+        vec4 push = solveEntry(slot, e, normal);
+        impulse += push.xyz;
+        shift += normal * abs(push.w);
+    }
+    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
+    putNextTotals(slot, 1, vec4(shift, 0.0));
+    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
+    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
+    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+}

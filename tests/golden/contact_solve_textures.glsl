@@ -1,0 +1,568 @@
+#version 330 core
+#define LIST 24
+#define MOST_COLLIDERS 3
+#define ROW_BITS 6
+#define UINTS usampler2D
+#define FLOATS sampler2D
+#define fetch(values, i) texelFetch(values, texelOf(i), 0)
+ivec2 texelOf(int i)
+{
+    return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS);
+}
+int ownNumber()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    return (texel.y << ROW_BITS) + texel.x;
+}
+uniform sampler2DArray impulses;
+vec4 impulsesAt(int i, int e)
+{
+    return texelFetch(impulses, ivec3(texelOf(i), e), 0);
+}
+#define putImpulses(i, e, value)
+#define putAllImpulses(i, values)
+uniform sampler2DArray earlierImpulses;
+vec4 earlierImpulsesAt(int i, int e)
+{
+    return texelFetch(earlierImpulses, ivec3(texelOf(i), e), 0);
+}
+#define putEarlierImpulses(i, e, value)
+#define putAllEarlierImpulses(i, values)
+uniform int firstNumber;
+uniform int numbers;
+int ownLane()
+{
+    int lane = ownNumber() - firstNumber;
+    if (lane < 0 || lane >= numbers) discard;
+    return lane;
+}
+const uint CONTACTS = 0x1fffffffu;
+const uint HELD = 0x20000000u;
+const uint RESPONDS = 0x40000000u;
+bool isActedOn(uint counted)
+{
+    return (counted & ~RESPONDS) != 0u;
+}
+const uint FLAG = 0x80000000u;
+uint withFlag(float number, bool isSet)
+{
+    return floatBitsToUint(number) | (isSet ? FLAG : 0u);
+}
+bool hasFlag(uint word)
+{
+    return (word & FLAG) != 0u;
+}
+float withoutFlag(uint word)
+{
+    return uintBitsToFloat(word & ~FLAG);
+}
+const uint TOUCHED = 1u;
+const uint BESIDE = 2u;
+const uint LOAD_CHANGED = 4u;
+const uint STRUCK = 8u;
+const uint WOKEN = 0x80000000u;
+bool marksWoken(uint mark)
+{
+    return mark >= STRUCK;
+}
+uniform usampler2D counts;
+uint countsAt(int i)
+{
+    return texelFetch(counts, texelOf(i), 0).x;
+}
+int ownSlot(int count)
+{
+    int slot = ownNumber();
+    if (slot >= count || countsAt(slot) == 0u) discard;
+    return slot;
+}
+int ownRow(int slot)
+{
+    return slot;
+}
+const int localCells = 4;
+struct CellPlace {
+    ivec3 cell;
+    vec3 local;
+};
+CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
+{
+    vec3 base = floor(clamp(anchor / cell, -1e9f, 1e9f));
+    vec3 rest = (anchor - base * cell) + position;
+    vec3 steps = floor(clamp(rest / cell, -1e9f, 1e9f));
+    ivec3 index = ivec3(base) + ivec3(steps);
+    vec3 inCell = clamp(rest - steps * cell, 0.0f, cell);
+    return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
+}
+ivec3 cellApart(int sphere)
+{
+    return ivec3(0x40000000, sphere, 0);
+}
+vec3 localDifference(vec3 a, vec3 b, float cell)
+{
+    vec3 d = a - b;
+    float period = float(localCells) * cell;
+    return d - floor(d / period + 0.5f) * period;
+}
+uint cellKey(ivec3 cell, uint mask)
+{
+    ivec3 block = cell >> 3;
+    ivec3 inBlock = cell & 7;
+    uint h = uint(block.x) * 3266489917u ^ uint(block.y) * 2654435769u ^ (uint(block.z) * 2246822507u + 374761393u);
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return (h + uint(inBlock.x + 8 * inBlock.y + 64 * inBlock.z)) & mask;
+}
+uniform usampler2D sorted;
+uvec2 sortedAt(int i)
+{
+    uvec4 two = texelFetch(sorted, texelOf(i >> 1), 0);
+    return (i & 1) == 0 ? two.xy : two.zw;
+}
+uniform usampler2D places;
+uvec4 placesAt(int i)
+{
+    return texelFetch(places, texelOf(i), 0);
+}
+uniform usampler2D cells;
+uvec4 cellsAt(int i)
+{
+    return texelFetch(cells, texelOf(i), 0);
+}
+uniform int count;
+uniform int keyMask;
+uniform float cell;
+int sphereOf(int slot)
+{
+    return int(sortedAt(slot).y);
+}
+uniform usampler2D motions;
+uvec4 motionsAt(int i)
+{
+    return texelFetch(motions, texelOf(i), 0);
+}
+int memoryRow(int slot)
+{
+    return slot;
+}
+uvec4 motionAt(int slot)
+{
+    return motionsAt(slot);
+}
+vec3 placeAt(int slot)
+{
+    return uintBitsToFloat(placesAt(slot).xyz);
+}
+vec3 velocityAt(int slot)
+{
+    return uintBitsToFloat(motionAt(slot).xyz);
+}
+bool isFresh(int slot)
+{
+    return hasFlag(motionAt(slot).w);
+}
+float radiusAt(int slot)
+{
+    return withoutFlag(cellsAt(slot).w);
+}
+bool rested(int slot)
+{
+    return hasFlag(cellsAt(slot).w);
+}
+int listedIn(uint counted)
+{
+    return min(int(counted & CONTACTS), LIST);
+}
+bool rests(int slot)
+{
+    return false;
+}
+const int NO_PART = 0;
+const int IMPACT = 1;
+const int PERSISTENT = 2;
+struct ContactImpulse {
+    vec3 impulse;
+    float multiplier;
+    bool sticks;
+    vec3 anchor;
+    float start;
+    int kind;
+};
+vec4 firstPart(ContactImpulse c)
+{
+    return vec4(c.impulse, c.sticks ? c.multiplier : -max(c.multiplier, 1e-30));
+}
+vec4 secondPart(ContactImpulse c)
+{
+    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : c.kind == IMPACT ? 0.0 : -1.0);
+}
+ContactImpulse impulseFrom(vec4 first, vec4 second)
+{
+    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : NO_PART;
+    return ContactImpulse(first.xyz, abs(first.w), first.w >= 0.0, second.xyz, second.w, kind);
+}
+ContactImpulse noImpulse(int kind)
+{
+    return ContactImpulse(vec3(0.0), 0.0, true, vec3(0.0), 0.0, kind);
+}
+const float restingOverlap = 0.005f;
+struct PairContact {
+    vec3 normal;
+    float since;
+    float depth;
+    float speed;
+    bool impact;
+};
+PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
+{
+    float squared = dot(d, d);
+    float along = dot(d, u);
+    float fast = dot(u, u);
+    float inside = reach * reach - squared;
+    float under = along * along + fast * inside;
+    bool met = inside > 0.0f || (along > 0.0f && under > 0.0f);
+    float root = sqrt(max(under, 0.0f));
+    float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
+    vec3 touch = (d - u * since) / reach;
+    float touchSpeed = dot(touch, u);
+    bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
+    float apart = sqrt(squared);
+    vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    return PairContact(impact ? touch : now, impact ? since : 0.0f, reach - apart,
+                       impact ? touchSpeed : dot(now, u), impact);
+}
+vec3 pairImpulse(vec3 u, vec3 n, float target, vec3 pushed, vec2 w)
+{
+    float along = dot(u, n);
+    return pushed + n * ((target - along) / w.x) - (u - n * along) / w.y;
+}
+vec3 withinFriction(vec3 impulse, vec3 n, float friction)
+{
+    float along = dot(impulse, n);
+    vec3 across = impulse - n * along;
+    float most = friction * max(along, 0.0f);
+    float grip = sqrt(dot(across, across));
+    return along >= 0.0f && grip <= most ? impulse : n * max(along, 0.0f) + across * (most / max(grip, 1e-30f));
+}
+const float frictionStep = 0.4f;
+struct ContactSum {
+    vec3 diagonal;
+    vec3 beside;
+    float number;
+};
+ContactSum noContacts()
+{
+    return ContactSum(vec3(0.0f), vec3(0.0f), 0.0f);
+}
+ContactSum withContact(ContactSum sum, vec3 n, vec2 parts)
+{
+    float across = frictionStep * parts.y;
+    float along = parts.x - across;
+    return ContactSum(sum.diagonal + n * n * along + across, sum.beside + vec3(n.y * n.z, n.x * n.z, n.x * n.y) * along,
+                      sum.number + 1.0f);
+}
+ContactSum bothSums(ContactSum a, ContactSum b)
+{
+    return ContactSum(a.diagonal + b.diagonal, a.beside + b.beside, a.number + b.number);
+}
+mat3 symmetric(vec3 d, vec3 o)
+{
+    return mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z);
+}
+mat3 matrixOf(ContactSum sum)
+{
+    return symmetric(sum.diagonal, sum.beside);
+}
+float traceOf(mat3 a, mat3 b)
+{
+    mat3 t = transpose(b);
+    return dot(a[0], t[0]) + dot(a[1], t[1]) + dot(a[2], t[2]);
+}
+float effectiveCount(ContactSum sum)
+{
+    mat3 squared = matrixOf(sum);
+    squared = squared * squared;
+    mat3 fourth = squared * squared;
+    return sum.number < 1.5f ? 1.0f : max(sqrt(sqrt(sqrt(traceOf(fourth, fourth)))), 1.01f);
+}
+float effectiveCount(mat3 a, mat3 b, mat3 c, mat3 d)
+{
+    for (int i = 0; i < 2; ++i) {
+        mat3 a0 = a;
+        mat3 b0 = b;
+        mat3 c0 = c;
+        a = a0 * a0 + b0 * c0;
+        b = a0 * b0 + b0 * d;
+        c = c0 * a0 + d * c0;
+        d = c0 * b0 + d * d;
+    }
+    return max(sqrt(sqrt(sqrt(traceOf(a, a) + 2.0f * traceOf(b, c) + traceOf(d, d)))), 1.01f);
+}
+bool isAlone(float count)
+{
+    return count < 1.003f;
+}
+uniform usampler2DArray lists;
+uint listsAt(int i, int e)
+{
+    return texelFetch(lists, ivec3(texelOf(i), e >> 2), 0)[e & 3];
+}
+uniform sampler2D materials;
+vec4 materialsAt(int i)
+{
+    return texelFetch(materials, texelOf(i), 0);
+}
+uniform int groupCount;
+uniform float stepTime;
+uniform float restSpeed;
+struct Sphere {
+    vec3 place;
+    uint label;
+    vec3 velocity;
+    float weight;
+    float radius;
+    bool fresh;
+    bool rests;
+};
+Sphere sphereAt(int slot)
+{
+    uvec4 place = placesAt(slot);
+    uvec4 motion = motionAt(slot);
+    bool stays = rests(slot);
+    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
+                  radiusAt(slot), hasFlag(motion.w), stays);
+}
+vec2 materialOf(Sphere a, Sphere b)
+{
+    return materialsAt(int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
+}
+int listedOf(int slot)
+{
+    return listedIn(countsAt(slot));
+}
+bool holds(int slot, int other)
+{
+    int listed = int(countsAt(slot) & CONTACTS);
+    bool found = listed <= LIST;
+    int e = found ? LIST : 0;
+    while (e < LIST) {
+        found = found || int(listsAt(slot, e)) == other;
+        ++e;
+    }
+    return found;
+}
+struct Pair {
+    Sphere sphere;
+    vec3 apart;
+    PairContact contact;
+    bool meets;
+    vec2 material;
+};
+Sphere own;
+void loadSphere(int slot)
+{
+    own = sphereAt(slot);
+}
+vec2 ownWeights(vec3 n)
+{
+    return vec2(own.weight);
+}
+uniform usampler2D effectiveCounts;
+uint effectiveCountsAt(int i)
+{
+    return texelFetch(effectiveCounts, texelOf(i), 0).x;
+}
+float effectiveCountOf(int slot, Sphere sphere)
+{
+    return sphere.rests ? 1.0 : uintBitsToFloat(effectiveCountsAt(slot));
+}
+vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
+{
+    vec2 other = vec2(pair.sphere.weight);
+    return ownWeights(n) * effective.x + other * effective.y;
+}
+Pair pairOf(int slot, int other, float bounceFrom)
+{
+    Pair pair;
+    pair.sphere = sphereAt(other);
+    pair.apart = localDifference(own.place, pair.sphere.place, cell);
+    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
+                               bounceFrom, slot < other ? 1.0 : -1.0);
+    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
+    pair.material = materialOf(own, pair.sphere);
+    return pair;
+}
+float mostRemembered(float start, float size, float weight)
+{
+    return min(start + 0.1 * max(size - start, 0.0), 1.5 * start + restSpeed / weight);
+}
+ContactImpulse remembered(ContactImpulse known, Sphere other)
+{
+    float size = length(known.impulse);
+    float most = known.kind == PERSISTENT ? mostRemembered(known.start, size, own.weight + other.weight) : 0.0;
+    known.impulse *= min(1.0, most / max(size, 1e-30));
+    if (known.kind == PERSISTENT) known.start = length(known.impulse);
+    return known;
+}
+bool isDeep(PairContact contact, float reach)
+{
+    return contact.depth > 0.25 * reach;
+}
+void leaveAsCome(inout Pair pair, vec3 anchor)
+{
+    float reach = own.radius + pair.sphere.radius;
+    if (pair.contact.impact || !isDeep(pair.contact, reach)) return;
+    vec3 n = anchor / max(length(anchor), 1e-30);
+    pair.contact.normal = n;
+    pair.contact.depth = reach - dot(pair.apart, n);
+    pair.contact.speed = dot(own.velocity - pair.sphere.velocity, n);
+}
+Pair pairAs(int slot, int other, ContactImpulse begun)
+{
+    Pair pair = pairOf(slot, other, begun.kind == PERSISTENT ? 1e30 : restSpeed);
+    pair.meets = pair.meets && begun.kind != NO_PART;
+    leaveAsCome(pair, begun.anchor);
+    return pair;
+}
+struct Constraint {
+    vec3 normal;
+    float target;
+    vec2 weights;
+    float lacks;
+    float friction;
+};
+Constraint constraintFrom(vec4 normal, vec4 weights)
+{
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
+}
+const float overRelaxed = 1.3;
+const float pushSpeed = 1.0;
+float partingSpeed(float depth, float reach)
+{
+    return (min(depth, 0.0) + clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime)) / stepTime;
+}
+float lacking(float depth, float reach)
+{
+    return min(depth - restingOverlap * reach, pushSpeed * stepTime);
+}
+vec2 stepWeights(vec2 weights, float count)
+{
+    return isAlone(count) ? weights : weights / vec2(overRelaxed, overRelaxed * frictionStep);
+}
+Constraint constrain(int slot, int other, ContactImpulse begun)
+{
+    Pair pair = pairAs(slot, other, begun);
+    PairContact contact = pair.contact;
+    vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
+    vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
+    float reach = own.radius + pair.sphere.radius;
+    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach);
+    float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
+    return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
+}
+uniform sampler2DArray totals;
+vec4 totalsAt(int i, int k)
+{
+    return texelFetch(totals, ivec3(texelOf(i), k), 0);
+}
+uniform sampler2DArray earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, ivec3(texelOf(i), k), 0);
+}
+uniform float momentum;
+struct Moved {
+    vec3 velocity;
+    vec3 move;
+};
+float ownCount;
+Moved ownMoved;
+vec3 ahead(vec3 latest, vec3 before)
+{
+    return momentum == 0.0 ? latest : latest + (latest - before) * momentum;
+}
+Moved movedAt(int slot)
+{
+    Sphere sphere = sphereAt(slot);
+    return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
+                 ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+}
+void loadOwn(int slot)
+{
+    loadSphere(slot);
+    ownCount = effectiveCountOf(slot, own);
+    ownMoved = movedAt(slot);
+}
+struct Push {
+    vec3 impulse;
+    float apart;
+    bool sticks;
+};
+Push solved(Constraint asked, Moved other, vec4 push, vec4 before)
+{
+    vec3 n = asked.normal;
+    vec3 wanted = pairImpulse(ownMoved.velocity - other.velocity, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
+    vec3 taken = withinFriction(wanted, n, asked.friction);
+    float lacks = asked.lacks - dot(ownMoved.move - other.move, n);
+    float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
+    return Push(taken, max(apart, 0.0), taken == wanted);
+}
+vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
+{
+    if (asked.friction < 0.0) return vec4(0.0);
+    Push next = solved(asked, movedAt(other), push, before);
+    return firstPart(ContactImpulse(next.impulse, next.apart, next.sticks, vec3(0.0), 0.0, PERSISTENT));
+}
+uniform sampler2DArray normals;
+vec4 normalsAt(int i, int e)
+{
+    return texelFetch(normals, ivec3(texelOf(i), e), 0);
+}
+uniform sampler2DArray weights;
+vec4 weightsAt(int i, int e)
+{
+    return texelFetch(weights, ivec3(texelOf(i), e), 0);
+}
+Constraint constraintOf(int slot, int e)
+{
+    return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
+}
+vec4 solveEntry(int slot, int e, out vec3 normal)
+{
+    int row = ownRow(slot);
+    normal = normalsAt(row, e).xyz;
+    return impulsesAt(row, e);
+}
+uniform sampler2D warmStart;
+vec4 warmStartAt(int i)
+{
+    return texelFetch(warmStart, texelOf(i), 0);
+}
+layout(location = 0) out vec4 newNextTotals[2];
+#define putNextTotals(i, k, value) newNextTotals[k] = (value)
+#define putAllNextTotals(i, values) newNextTotals = (values)
+#define putNextVelocities(i, k, value)
+#define putAllNextVelocities(i, values)
+uniform float nextMomentum;
+void main()
+{
+    int slot = ownSlot(count);
+    if (slot < 0) return;
+    loadOwn(slot);
+    int listed = listedOf(slot);
+    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
+    vec3 shift = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        vec3 normal;
+        vec4 push = solveEntry(slot, e, normal);
+        impulse += push.xyz;
+        shift += normal * abs(push.w);
+    }
+    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
+    putNextTotals(slot, 1, vec4(shift, 0.0));
+    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
+    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
+    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+}
