@@ -1,5 +1,6 @@
 // The initial place and velocity of what an emitter emits. Everything random depends on the newborn's seed.
-// Distributions: src/scene/emitter.h. Needs physics/random.glsl.
+// Distributions: src/scene/emitter.h.
+#include "physics/random.glsl"
 #include "physics/rotation.glsl"
 
 // Counters of a newborn's hashes, beyond those of the frames (fused/step.glsl).

@@ -1,4 +1,4 @@
-// BDF2, whatever solves its stage: order 2, L-stable. Needs fused/stage.glsl.
+// BDF2, whatever solves its stage: order 2, L-stable.
 //
 //   z = dx / 3,  w = v + dv / 3,  eta = 2h/3;  a stage gives q;  v' = (q - z) / eta;  dv = v' - v;  dx = q;  x += q
 //
@@ -14,6 +14,7 @@
 //
 // where flown and flight are the velocity and the way after h. A molecule that rests on a collider keeps its history: begun
 // anew in every step, its free vertices would take a velocity of g h / 2 for rest.
+#include "fused/stage.glsl"
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of one of them NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity

@@ -6,7 +6,8 @@
 // springs, sweeps over the springs relax one after the other (XPBD). Everything is a displacement from x, never a
 // position: a float near the anchor rounds to 6e-8 m, and divided by eta that would be the velocity's error.
 //
-// Needs fused/step.glsl. generated/sweeps.glsl calls relax() for every spring.
+// generated/sweeps.glsl calls relax() for every spring.
+#include "fused/step.glsl"
 #include "physics/relaxation.glsl"
 
 vec3 q[VERTICES];       // m, displacement of the substep

@@ -1,5 +1,6 @@
 // The parts of a substep that a solver calls beside the springs: fields, drag and gravity, the release of
-// pins. Needs fused/state.glsl and generated/molecule.glsl. Times are in s since the frame's start.
+// pins. Times are in s since the frame's start.
+#include "fused/state.glsl"
 #include "physics/random.glsl"
 #include "step/advance.glsl"
 #include "step/drag.glsl"

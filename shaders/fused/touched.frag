@@ -1,4 +1,5 @@
-// Contact with other molecules changes a molecule here (contact/response/gains.pass.glsl). Needs fused/lane.glsl.
+// Contact with other molecules changes a molecule here (contact/response/gains.pass.glsl).
+#include "fused/lane.glsl"
 #include "state/numbered.glsl"
 
 uniform sampler2DArray gains;

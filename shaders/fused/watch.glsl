@@ -1,6 +1,7 @@
 // The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups holds
 // 1 + the number of the frame; in fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it
-// looks. Needs fused/state.glsl.
+// looks.
+#include "fused/state.glsl"
 #ifdef WATCH
 #include "physics/runaway.glsl"
 

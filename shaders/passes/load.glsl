@@ -1,4 +1,5 @@
-// Contacts between molecules act on a vertex by what they remember (contact/response/gains.pass.glsl). Needs state/textures.glsl.
+// Contacts between molecules act on a vertex by what they remember (contact/response/gains.pass.glsl).
+#include "state/textures.glsl"
 #ifdef REMEMBERS
 #include "state/numbered.glsl"
 

@@ -1,5 +1,6 @@
 // Air around the eye and all else, with haze: what light loses and gains on its way. Places are relative to the eye.
-// Needs render/sky.glsl. water/medium.glsl has the same functions.
+// water/medium.glsl has the same functions.
+#include "render/sky.glsl"
 
 uniform float fogDensity;  // 1/m
 

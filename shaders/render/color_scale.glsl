@@ -1,4 +1,5 @@
-// A molecule's colour by its speed (src/scene/color_scale.h). Needs state/molecule.glsl.
+// A molecule's colour by its speed (src/scene/color_scale.h).
+#include "state/molecule.glsl"
 
 #include "render/looks.glsl"
 

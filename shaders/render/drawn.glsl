@@ -1,5 +1,6 @@
 // Which molecule is drawn at a place of a draw. Variants: ORDERED (not as they are numbered), SLABS (only those of one slab
-// of depth), SLAB_DRAWS (the same, where each slab has a draw of its own). Needs state/molecule.glsl.
+// of depth), SLAB_DRAWS (the same, where each slab has a draw of its own).
+#include "state/molecule.glsl"
 #ifdef ORDERED
 #include "render/order.glsl"
 

@@ -1,5 +1,6 @@
 // Glass is drawn as a plate of even thickness, which light leaves in the direction in which it came, moved sideways.
-// Nothing that is blended is seen displaced through it. Needs render/light.glsl.
+// Nothing that is blended is seen displaced through it.
+#include "render/light.glsl"
 
 uniform sampler2D lightBehind;  // of all that is not blended
 uniform sampler2D sceneDepth;   // 1 - nearest / depth

@@ -1,5 +1,6 @@
 // Where a vertex is drawn: with GROWS, of a molecule that grows out of its first vertex at birth and shrinks into it
-// before its end. Needs state/molecule.glsl.
+// before its end.
+#include "state/molecule.glsl"
 #ifdef GROWS
 #include "render/looks.glsl"
 

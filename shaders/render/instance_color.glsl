@@ -1,5 +1,6 @@
 // The colour of a molecule. With COLOR_BY by its speed; else no two leaves of a tree are alike: each instance takes its place
-// between two colours from its seed. Needs state/molecule.glsl.
+// between two colours from its seed.
+#include "state/molecule.glsl"
 #ifdef COLOR_BY
 #include "render/color_scale.glsl"
 
