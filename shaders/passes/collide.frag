@@ -10,7 +10,7 @@
 uniform vec3 gravity;  // m/s^2
 #include "step/fall.glsl"
 
-#if defined(RK4) && defined(SPRINGS)
+#if defined(STAGES) && defined(SPRINGS)
 uniform sampler2D sumAccelerations;  // m/s^2, of the stages
 #endif
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
@@ -33,7 +33,7 @@ void main()
         vec3 fall = fallAt(anchor, x);
         vec3 acceleration = fall + loadOn(own);
         vec3 kick = vec3(0.0);
-#if defined(RK4) && defined(SPRINGS)
+#if defined(STAGES) && defined(SPRINGS)
         acceleration = texelFetch(sumAccelerations, texel, 0).xyz;
 #elif defined(ACCELERATION)
         vec3 sprung = texelFetch(accelerations, texel, 0).xyz;

@@ -1,15 +1,16 @@
-// stage: one of the four evaluations of a Runge-Kutta step (rk4). positions and velocities are the stage's; its rates
+// stage: one of the evaluations of a Runge-Kutta step. positions and velocities are the stage's; its rates
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "passes/step.glsl"
 #include "passes/load.glsl"
 #include "generated/colliders.glsl"
+#include "generated/stages.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
 uniform sampler2D sumVelocities;     // of shareOf(stage) v
 uniform sampler2D sumAccelerations;  // of shareOf(stage) a
-uniform int stage;                   // 0 to 3
+uniform int stage;                   // from 0
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -45,7 +46,7 @@ void main()
 #endif
     vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
 #ifdef COLLIDE
-    // what begins the substep at rest on a collider is held by it, as in solver/rk4.glsl
+    // what begins the substep at rest on a collider is held by it, as in solver/runge-kutta.glsl
     if (startVelocity == vec3(0.0)) {
 #ifdef CONTACT_RADIUS
         takeRadius(texelFetch(constants, recordTexel(own.y), 0).y);

@@ -20,21 +20,3 @@ vec3 velocityAfter(vec3 dragged, vec3 moved)
     return dragged;
 #endif
 }
-
-// Returns when stage 0 to 3 of rk4 takes its rates, s after the substep's start.
-float stageTime(int stage)
-{
-    return stage == 0 ? 0.0f : stage == 3 ? substep : 0.5f * substep;
-}
-
-// Returns the share of the rates of stage 0 to 3 of rk4 in the substep.
-float shareOf(int stage)
-{
-    return stage == 0 || stage == 3 ? 1.0f / 6.0f : 1.0f / 3.0f;
-}
-
-// Returns where a rate leads from the substep's start: to rk4's next stage, or from its last with the sum of shares to the end.
-vec3 afterStage(int stage, vec3 start, vec3 rate, vec3 sum)
-{
-    return start + (stage == 3 ? sum : rate) * (stage < 2 ? 0.5f * substep : substep);
-}

@@ -30,20 +30,6 @@ bool isRigid(const Analysis& analysis, double step) {
            analysis.lowestFrequency * step > 1;
 }
 
-double stableStep(const Analysis& analysis, SolverKind kind) {
-    switch (kind) {
-    case SolverKind::euler:
-    case SolverKind::verlet:
-        return analysis.stableStepEuler;
-    case SolverKind::leapfrog:
-        return analysis.stableStepLeapfrog;
-    case SolverKind::rk4:
-        return analysis.stableStepRk4;
-    default:
-        return infinite;
-    }
-}
-
 std::string steps(double frame, double longest) {
     const double needed = std::ceil(frame / longest);
     return needed <= maxSubsteps
@@ -97,7 +83,7 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
     out.fastestForce = fastestByPlace(scene.forces, group.name);
     const double turning = out.fastestForce ? fastestRate(scene.forces[*out.fastestForce]) : 0;
     Analysis analysis;
-    analysis.stableStepEuler = analysis.stableStepLeapfrog = analysis.stableStepRk4 = infinite;
+    analysis.stableStepEuler = analysis.stableStepLeapfrog = infinite;
     if (out.needs.springs) analysis = analyseGroup(group, out);
     out.highestFrequency = analysis.highestFrequency;
 
@@ -127,7 +113,7 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
         out.solverWhy = concat(explicitly ? explicitly : "the springs are stiff",
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     }
-    out.stableStep = stableStep(analysis, out.solver);
+    out.stableStep = solver(out.solver).longestStep(analysis);
     out.rigid = isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
     const std::string hasty = hastyForce(scene.forces, out, step);

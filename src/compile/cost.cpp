@@ -51,31 +51,6 @@ struct ColliderCosts {
     ReadingCost operator()(const DistanceFieldCollider&) const { return {70, 8}; }
 };
 
-// How often a substep evaluates the springs, and the vectors a vertex that a solver keeps beside position and
-// velocity (the table of scene/solver.h, in numbers).
-struct SolverCost {
-    double evaluations = 1, perFrame = 0;
-    int vectors = 1;
-};
-SolverCost costOf(SolverKind kind) {
-    switch (kind) {
-    case SolverKind::euler:
-    case SolverKind::verlet:
-        return {1, 0, 1};
-    case SolverKind::leapfrog:
-        return {1, 1, 2};
-    case SolverKind::rk4:
-        return {4, 0, 5};
-    case SolverKind::xpbd:
-        return {1, 0, 2};
-    case SolverKind::bdf2Xpbd:
-        return {2, 0, 4};
-    case SolverKind::bdf2Corotated:
-        return {2, 0, 5};
-    }
-    return {};
-}
-
 ReadingCost& operator+=(ReadingCost& a, const ReadingCost& b) {
     a.operations += b.operations;
     a.fetches += b.fetches;
@@ -94,7 +69,7 @@ ReadingCost costOfAll(const std::vector<Shaped>& all) {
 ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& group) {
     const Molecule& molecule = scene.groups[group.index].molecule;
     const Needs& needs = group.needs;
-    const SolverCost solver = costOf(group.solver);
+    const Solver& solver = shoal::solver(group.solver);
     const double vertices = group.vertexCount, substeps = plan.substeps;
     const auto muscles =
         double(std::count_if(molecule.springs.begin(), molecule.springs.end(),
@@ -105,8 +80,8 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
             double(molecule.springs.size()) * (needs.springDamping ? springOperations : undampedSpring);
         out.operations += (substeps * solver.evaluations + solver.perFrame) * (springs + muscle * muscles);
     }
-    // rk4 evaluates all of the motion in each stage
-    const double motions = group.solver == SolverKind::rk4 ? 4 : 1;
+    // a stage evaluates all of the motion
+    const double motions = std::max(1, solver.tableau.stages);
     double motion = motionOperations * vertices;
     if (needs.directionalDrag)
         motion += directionalDrag * vertices + triangle * double(molecule.triangles.size()) +
@@ -138,7 +113,7 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
 // 32-bit registers a lane (cost.h says what is counted).
 int registersOf(const GroupPlan& group, int vertices) {
     constexpr int beside = 24;
-    const int vectors = 2 + costOf(group.solver).vectors + (group.needs.directionalDrag ? 1 : 0);
+    const int vectors = 2 + solver(group.solver).vectors + (group.needs.directionalDrag ? 1 : 0);
     return beside + 3 * vectors * vertices;
 }
 

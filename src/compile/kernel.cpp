@@ -1,6 +1,7 @@
 #include "compile/kernel.h"
 
 #include <algorithm>
+#include <functional>
 #include <numbers>
 
 #include "compile/clocks.h"
@@ -268,6 +269,36 @@ void addPacking(const Molecule& molecule, const Needs& needs, bool history, Kern
     if (needs.normals) addElements("normal", layout, nullptr, out.normals);
 }
 
+// A choice of one of several texts by `stage`.
+std::string byStage(int stages, const std::function<std::string(int)>& text) {
+    std::string out;
+    for (int s = 0; s < stages; ++s)
+        out += s + 1 < stages ? concat("stage == ", s, " ? ", text(s), " : ") : text(s);
+    return out;
+}
+
+// stageTime: when a stage takes its rates, s after the substep's start. shareOf: of its rates in the substep.
+// afterStage: where it leads, to the next or to the substep's end; sum: of shareOf(s) times the rates of
+// stages s.
+std::string stagesText(const Tableau& tableau) {
+    const auto times = [](double factor, const std::string& what) {
+        return factor == 1 ? what : concat(glslLiteral(factor), " * ", what);
+    };
+    const auto lead = [&](int s) {
+        const auto [rate, sum] = tableau.way(s);
+        if (sum == 0) return concat("rate * (", times(rate, "substep"), ")");
+        if (rate == 0) return concat("sum * (", times(sum, "substep"), ")");
+        return concat("(", times(rate, "rate"), " + ", times(sum, "sum"), ") * substep");
+    };
+    const auto function = [&](const char* head, const std::function<std::string(int)>& text) {
+        return concat(head, "\n{\n    return ", byStage(tableau.stages, text), ";\n}\n\n");
+    };
+    return function("float stageTime(int stage)", [&](int s) { return times(tableau.time(s), "substep"); }) +
+           function("float shareOf(int stage)", [&](int s) { return glslLiteral(tableau.b[s]); }) +
+           function("vec3 afterStage(int stage, vec3 start, vec3 rate, vec3 sum)",
+                    [&](int s) { return concat("start + ", lead(s)); });
+}
+
 }  // namespace
 
 std::vector<std::string> BufferLayout::defines(bool layered) const {
@@ -323,6 +354,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     if (countsMuscles(needs))
         text.muscles = parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
     text.waves = MuscleWaves(molecule, needs).arrayText();
+    if (solver.rungeKutta()) text.stages = stagesText(solver.tableau);
     if (!ofLane) return text;
     text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";

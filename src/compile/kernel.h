@@ -44,6 +44,7 @@ struct KernelText {
     std::string molecule;
     std::string forces;  // generated/forces.glsl: springForces, surfaceNormals
     std::string sweeps;  // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
+    std::string stages;  // generated/stages.glsl: stageTime, shareOf, afterStage; for Runge-Kutta methods
     // For generated/packing.glsl of a lane: loadState, and expressions of the 4-vectors that are stored.
     std::string load;
     std::vector<std::string> state, normals;

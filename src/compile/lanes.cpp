@@ -87,27 +87,6 @@ constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
 constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
 constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
 
-// Returns the part of a spring.
-double secondsOf(SolverKind solver) {
-    switch (solver) {
-    case SolverKind::euler:
-    case SolverKind::verlet:
-        return 0.0013;
-    case SolverKind::leapfrog:
-        return 0.0042;
-    case SolverKind::rk4:
-        return 0.0048;
-    case SolverKind::xpbd:
-        return 0.0021;
-    case SolverKind::bdf2Xpbd:
-        return 0.0246;
-    case SolverKind::bdf2Corotated:
-        return 0.0653;
-    }
-    EXPECTS(false);
-    return 0;
-}
-
 bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {
     if (limits.software) return secondsToCompile(plan, group) <= mostSeconds;
     return group.vertexCount <= (group.needs.collide ? gpuLane : gpuLaneFree);
@@ -158,7 +137,7 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group) {
     double ofEach = ofVertex;
     if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;
     if (group.needs.fields) ofEach += double(plan.fieldCount) * (plan.longFields ? ofLongField : ofField);
-    const double text = vertices * ofEach + group.springCount * secondsOf(group.solver) +
+    const double text = vertices * ofEach + group.springCount * solver(group.solver).secondsPerSpring +
                         (group.needs.directionalDrag ? group.triangleCount : 0) * ofTriangle;
     return start + text * (1 + vertices / crowding);
 }

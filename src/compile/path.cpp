@@ -269,7 +269,7 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
         for (const GroupPlan& group : plan.groups) {
             acceleration |= group.needs.acceleration;
             normals |= group.needs.normals;
-            stages |= group.solver == SolverKind::rk4;
+            stages |= solver(group.solver).rungeKutta();
         }
         const size_t textures = 4 + (acceleration ? 2 : 0) + (stages ? 8 : 0) + (normals ? 1 : 0);
         return (textures * size_t(plan.rows) + 3 * size_t(plan.recordRows)) * stateWidth * sizeof(glm::vec4);

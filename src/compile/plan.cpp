@@ -160,26 +160,26 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
                           : "anchors follow what moves");
     if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
-    const bool stages = group.solver == SolverKind::rk4;
+    const int stages = shoal::solver(group.solver).tableau.stages;
     // symmetrically where the solver is: half before and half after the rest of a substep
     const bool halves = needs.thrust && shoal::solver(group.solver).order > 1;
     if (needs.thrust) add(PassKind::thrust, When::substep, "a thrust pushes along the velocity");
     if (needs.springs && shoal::solver(group.solver).order == 1)
         add(PassKind::restore, When::substep, "the molecule has springs");
-    if (needs.directionalDrag && !stages)
+    if (needs.directionalDrag && stages == 0)
         add(PassKind::normals, When::substep, "drag differs across and along the surface");
-    add(stages ? PassKind::stage : PassKind::advect, When::substep,
-        concat(stages ? "four times: moves every vertex" : "moves every vertex",
+    add(stages > 0 ? PassKind::stage : PassKind::advect, When::substep,
+        concat(stages > 0 ? concat(stages, " times: ") : "", "moves every vertex",
                needs.gravity ? " under gravity" : "",
                needs.fields ? ", dragged by the fields"
                : needs.drag ? ", with drag"
                             : "",
                needs.forces ? ", with forces" : "", needs.wind ? ", in the wind" : ""));
-    if (halves && stages) add(PassKind::thrust, When::substep, "the other half of the thrust");
+    if (halves && stages > 0) add(PassKind::thrust, When::substep, "the other half of the thrust");
     if (needs.collide) add(PassKind::collide, When::substep, "the scene has colliders");
     if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::substep, "the molecule has springs");
-    if (halves && !stages) add(PassKind::thrust, When::substep, "the other half of the thrust");
+    if (halves && stages == 0) add(PassKind::thrust, When::substep, "the other half of the thrust");
     if (needs.normals) add(PassKind::normals, When::frameEnd, "drawn, or exported, with its normals");
     add(PassKind::watch, When::frameEnd, "stops a run whose state is not finite or too fast");
 }

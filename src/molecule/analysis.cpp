@@ -99,11 +99,9 @@ double stableStep(const MatrixXd& stiffness, const MatrixXd& damping, double fac
     return below;
 }
 
-// No root of z^2 + b z + a = 0 is larger than (b + sqrt(b^2 + 4a)) / 2, and the method's region holds the
-// left half of a disc of radius 2.6 (2.78 on the axes).
-double stableStepRk4(double mostA, double mostB) {
-    const double rate = 0.5 * mostB + std::sqrt(0.25 * mostB * mostB + mostA);
-    return rate > 0 ? 2.6 / rate : std::numeric_limits<double>::infinity();
+// No root of z^2 + b z + a = 0 is larger.
+double fastestRate(double mostA, double mostB) {
+    return 0.5 * mostB + std::sqrt(0.25 * mostB * mostB + mostA);
 }
 
 void analyseDensely(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
@@ -128,7 +126,7 @@ void analyseDensely(const Molecule& molecule, const Freedom& freedom, Analysis& 
     out.zeroModes = std::max(0, zeros - out.rigidModes);
     out.stableStepEuler = stableStep(stiffness, damping, 2, most, mostDamping);
     out.stableStepLeapfrog = stableStep(stiffness, damping, 4, most, mostDamping);
-    out.stableStepRk4 = stableStepRk4(most, mostDamping);
+    out.fastestRate = fastestRate(most, mostDamping);
 }
 
 void analyseByIteration(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
@@ -139,7 +137,7 @@ void analyseByIteration(const Molecule& molecule, const Freedom& freedom, Analys
     out.frequencyBound = std::sqrt(largestByIteration(molecule, freedom, &Spring::stiffness, true));
     out.stableStepEuler = stableStep({}, {}, 2, most, mostDamping);
     out.stableStepLeapfrog = stableStep({}, {}, 4, most, mostDamping);
-    out.stableStepRk4 = stableStepRk4(most, mostDamping);
+    out.fastestRate = fastestRate(most, mostDamping);
 }
 
 }  // namespace
@@ -149,8 +147,7 @@ Analysis analyse(const Molecule& molecule, bool pinned) {
     out.vertices = static_cast<int>(molecule.vertices.size());
     out.springs = static_cast<int>(molecule.springs.size());
     out.triangles = static_cast<int>(molecule.triangles.size());
-    out.stableStepEuler = out.stableStepLeapfrog = out.stableStepRk4 =
-        std::numeric_limits<double>::infinity();
+    out.stableStepEuler = out.stableStepLeapfrog = std::numeric_limits<double>::infinity();
     for (const Vertex& vertex : molecule.vertices)
         out.totalMass += vertex.mass;
     for (const Spring& spring : molecule.springs) {

@@ -26,9 +26,10 @@ struct Analysis {
     bool modesKnown = true;       // false above 300 vertices, where only the highest frequency is found
 
     // s; infinite without springs. Sufficient for every mode, with the actual damping (analysis.cpp).
-    double stableStepEuler = 0;  // largest eigenvalue of h^2 K + 2 h C below 4
-    double stableStepRk4 = 0;    // 2.6 / (b/2 + sqrt(b^2/4 + a^2)), a, b the largest of frequency and damping
+    double stableStepEuler = 0;     // largest eigenvalue of h^2 K + 2 h C below 4
     double stableStepLeapfrog = 0;  // largest eigenvalue of h^2 K + 4 h C below 4: the force sees v + a h/2
+    // 1/s; bounds the roots of z^2 + b z + a = 0, a and b the largest of squared frequency and damping.
+    double fastestRate = 0;
 
     double totalMass = 0;   // kg, pinned vertices too
     double restEnergy = 0;  // J, in the springs of the drawn shape

@@ -87,6 +87,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.springs, "SPRINGS");
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
+    if (solver(group.solver).rungeKutta())
+        out.push_back(concat("STAGES ", solver(group.solver).tableau.stages));
     define(needs.actuation || (needs.steers && !perLane), "MUSCLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
@@ -147,7 +149,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     }
     include(group.needs.collide, "generated/colliders.glsl");
     include(solver(group.solver).history, "fused/bdf2.glsl");
-    include(true, concat("solver/", name(group.solver), ".glsl"));
+    include(true, concat("solver/", solver(group.solver).shader(), ".glsl"));
     include(group.needs.collide, "fused/contact.glsl");
     include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
     out += parameterLoads(group, options);
@@ -314,6 +316,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/muscles.glsl", group.kernel.muscles},
                      {"generated/waves.glsl", group.kernel.waves},
                      {"generated/forces.glsl", group.kernel.forces},
+                     {"generated/stages.glsl", group.kernel.stages},
                      {"generated/sweeps.glsl", group.kernel.sweeps},
                      {"generated/factors.glsl", factorsText(group, options)},
                      {"generated/packing.glsl", packingText(group, options)},

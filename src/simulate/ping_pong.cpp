@@ -17,13 +17,14 @@ std::vector<std::string> defines(const GroupPlan& group) {
     };
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
-    define(group.solver == SolverKind::rk4, "RK4");
     define(needs.fields, "FIELDS");
     define(needs.forces, "FORCES");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.springs, "SPRINGS");
     define(needs.acceleration, "ACCELERATION");
     define(needs.springDamping, "SPRING_DAMPING");
+    if (const Solver& solver = shoal::solver(group.solver); solver.rungeKutta())
+        out.push_back(concat("STAGES ", solver.tableau.stages));
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.collide, "COLLIDE");
     define(needs.pins, "PINS");
@@ -119,6 +120,7 @@ PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables
             for (const std::string& one : contact->defines())
                 wanted.defines.push_back(one);
         wanted.generated = {{"generated/fields.glsl", plan.fields.source},
+                            {"generated/stages.glsl", plan.groups[pass.group].kernel.stages},
                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
                             {"generated/colliders.glsl", plan.colliders.source}};
         wanted.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
@@ -195,7 +197,7 @@ void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& 
     case PassKind::advect:
         return advect(group, pass.group, step);
     case PassKind::stage:
-        for (int s = 0; s < 4; ++s)
+        for (int s = 0; s < solver(group.solver).tableau.stages; ++s)
             stage(group, pass.group, step, s);
         return;
     case PassKind::collide:
@@ -350,7 +352,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     program.set("dragRate",
                 glm::vec2(group.drag.normal, group.drag.tangent) * float(step.frame.parameters.drag));
     program.set("moveAnchors", int(step.first && group.needs.records));
-    const bool last = s == 3;
+    const bool last = s + 1 == solver(group.solver).tableau.stages;
     drawState(group, {last ? &state.position.write(index) : &state.stagePosition[write],
                       last ? &state.velocity.write(index) : &state.stageVelocity[write],
                       &state.sumVelocity[write], &state.sumAcceleration[write]});
@@ -364,8 +366,9 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
-    if (group.solver == SolverKind::rk4)  // that the last stage has written
-        program.texture("sumAccelerations", state.sumAcceleration[1]);
+    if (const int stages = solver(group.solver).tableau.stages;
+        stages > 0)  // that the last stage has written
+        program.texture("sumAccelerations", state.sumAcceleration[size_t(stages - 1) % 2]);
     if (!plan_->colliders.moving.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
     setParameters(program, group, step);

@@ -52,7 +52,7 @@ TextureState::TextureState(gpu::Context& context, const Plan& plan) : targets_(c
     velocity = makeSides(context, plan, plan.rows, "velocities");
     if (any(&Needs::acceleration)) acceleration = makeSides(context, plan, plan.rows, "accelerations");
     const bool stages = std::any_of(plan.groups.begin(), plan.groups.end(),
-                                    [](const GroupPlan& group) { return group.solver == SolverKind::rk4; });
+                                    [](const GroupPlan& group) { return solver(group.solver).rungeKutta(); });
     for (auto* pair : {&stagePosition, &stageVelocity, &sumVelocity, &sumAcceleration})
         for (Texture& texture : *pair)
             if (stages) texture = makeTexture(context, plan, plan.rows, "stages");

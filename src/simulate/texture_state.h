@@ -56,7 +56,8 @@ class TextureState {
         const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
 
     TwoSided position, velocity, acceleration, record;
-    // rk4: the state of a stage, and the rates added up so far; side s mod 2 is written by stage s.
+    // Runge-Kutta methods: the state of a stage, and the rates added up so far; side s mod 2 is written by
+    // stage s.
     std::array<gpu::Texture, 2> stagePosition, stageVelocity, sumVelocity, sumAcceleration;
     gpu::Texture normal, constant;
 

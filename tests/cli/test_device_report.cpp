@@ -92,7 +92,7 @@ TEST_CASE("bench --report measures the cases that are asked for, with the device
 TEST_CASE("a broken shader is one failed row of the report, with the driver's words", "[cli]") {
     const Scratch scratch;
     const std::string data = copiedData(scratch), file = scratch.path("device.json");
-    const fs::path shader = fs::path(data) / "shaders" / "solver" / "rk4.glsl";
+    const fs::path shader = fs::path(data) / "shaders" / "solver" / "runge-kutta.glsl";
     writeFile(shader, readFile(shader) + "\nfloat broken() { return notDeclared; }\n");
     const Outcome outcome =
         runShoal(reportWords(file, "state: solver"), {.environment = {{"SHOAL_DATA", data}}});
@@ -107,7 +107,7 @@ TEST_CASE("a broken shader is one failed row of the report, with the driver's wo
         CHECK((check.find("failed") != nullptr) == broken);
         if (broken)
             CHECK_THAT(member(check, "failed").text,
-                       Catch::Contains("solver/rk4.glsl") && Catch::Contains("notDeclared"));
+                       Catch::Contains("solver/runge-kutta.glsl") && Catch::Contains("notDeclared"));
     }
     CHECK_THAT(outcome.out, Catch::Contains("6 of 7 checks held") && Catch::Contains("solver rk4: "));
 }

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "molecule/skin.h"
 #include "reference/equations.h"
 #include "reference/fields.h"
 #include "reference/forces.h"
-#include "reference/solve.h"
 #include "scene/force_kinds.h"
 
 namespace shoal::reference {
@@ -146,8 +146,28 @@ void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double
     push(problem, state, h / 2);
 }
 
+void rungeKuttaStep(const Problem& problem, const Problem& smooth, const Tableau& tableau, State& state,
+                    double h) {
+    push(problem, state, h / 2);
+    const State start = state;
+    std::vector<Vectors> velocities, accelerations;  // of each stage
+    for (int s = 0; s <= tableau.stages; ++s) {
+        const double* share = s < tableau.stages ? tableau.a[s] : tableau.b;
+        state = start;
+        for (int j = 0; j < s; ++j) {
+            add(problem, state.position, velocities[size_t(j)], h * share[j]);
+            add(problem, state.velocity, accelerations[size_t(j)], h * share[j]);
+        }
+        state.time = start.time + h * (s < tableau.stages ? tableau.time(s) : 1);
+        velocities.push_back(freeVelocities(problem, state.velocity));
+        accelerations.push_back(acceleration(smooth, state));
+    }
+    push(problem, state, h / 2);
+}
+
 void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps) {
     const double h = duration / substeps;
+    const Solver& method = solver(kind);
     Vectors springs;
     if (kind == SolverKind::leapfrog)
         springs = springAcceleration(problem, state.position, state.velocity, state.time);
@@ -157,29 +177,20 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
                   [](const Force& force) { return std::holds_alternative<ThrustForce>(*force.shape); });
     History history;
     for (int i = 0; i < substeps; ++i) {
-        switch (kind) {
-        case SolverKind::euler:
-            eulerStep(problem, state, h);
-            break;
-        case SolverKind::verlet:
-            verletStep(problem, state, h);
-            break;
-        case SolverKind::leapfrog:
-            leapfrogStep(problem, state, springs, h);
-            break;
-        case SolverKind::rk4:
-            push(problem, state, h / 2);
-            state = integrate(smooth, state, h, 1);
-            push(problem, state, h / 2);
-            break;
-        case SolverKind::xpbd:
-            xpbdStep(problem, state, h);
-            break;
-        case SolverKind::bdf2Xpbd:
-        case SolverKind::bdf2Corotated:
+        if (method.rungeKutta())
+            rungeKuttaStep(problem, smooth, method.tableau, state, h);
+        else if (method.history)
             bdf2Step(problem, state, history, h, kind == SolverKind::bdf2Corotated);
-            break;
-        }
+        else if (kind == SolverKind::euler)
+            eulerStep(problem, state, h);
+        else if (kind == SolverKind::verlet)
+            verletStep(problem, state, h);
+        else if (kind == SolverKind::leapfrog)
+            leapfrogStep(problem, state, springs, h);
+        else if (kind == SolverKind::xpbd)
+            xpbdStep(problem, state, h);
+        else
+            throw Error(method.name, " has no recurrence in double precision");
     }
 }
 

@@ -2,7 +2,8 @@
 // rounding.
 //
 // The explicit ones (discrete.cpp): `euler` is symplectic Euler [Latta 2004, (3) and (8)], `leapfrog` its
-// second-order relative. All but rk4 take gravity and drag exactly over the step they are given:
+// second-order relative. All but Runge-Kutta methods take gravity and drag exactly over the step they are
+// given:
 //   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma,
 // with the scene's forces in g. Thrust acts exactly, over h before a step of order 1, else over h/2 before
 // and after it.
@@ -41,6 +42,11 @@ void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double
 // As eulerStep, with every spring no stiffer than what moves its ends to its rest length at once, and v from
 // the positions' difference.
 void verletStep(const Problem& problem, State& state, double h);
+
+// An explicit Runge-Kutta method from its tableau, with every stage kept. `smooth`: the problem without
+// thrust.
+void rungeKuttaStep(const Problem& problem, const Problem& smooth, const Tableau& tableau, State& state,
+                    double h);
 
 // The implicit ones (implicit.cpp) are written from the formulas, not from the shaders: dense matrices, a
 // rotation by singular values.

@@ -197,7 +197,8 @@ std::map<std::string, std::string> generate(const std::vector<Field>& fields,
     std::vector<glm::vec4> samples;
     return {{"generated/fields.glsl", generateFields(fields, samples).source},
             {"generated/scene_forces.glsl", generateForces(forcesToValidate(), "", true).source},
-            {"generated/colliders.glsl", generateColliders(colliders, samples).source}};
+            {"generated/colliders.glsl", generateColliders(colliders, samples).source},
+            {"generated/stages.glsl", kernelText({}, {}, solver(SolverKind::rk4), false).stages}};
 }
 
 Scene leafScene(const Defines& words, SolverKind solver, FieldSampling sampling) {

@@ -274,28 +274,6 @@ TEST_CASE("leapfrog drifts by half of the old and half of the new velocity, wher
     CHECK(shader::driftOf(v, dragged) == vec3(0.75f, 0.5f, -0.25f));
 }
 
-TEST_CASE("the stages of rk4 add up to its polynomial", "[physics]") {
-    const float h = 0.5f, start = 1;
-    shader::substep = h;
-    vec3 x(start), sum(0);  // of dx/dt = x
-    for (int s = 0; s < 4; ++s) {
-        sum += x * shader::shareOf(s);
-        x = shader::afterStage(s, vec3(start), x, sum);
-    }
-    CHECK(x.x == Approx(1 + h + h * h / 2 + h * h * h / 6 + h * h * h * h / 24).epsilon(1e-6));
-}
-
-TEST_CASE("the stages of rk4 take their rates where Simpson's rule does", "[physics]") {
-    const float h = 0.5f, start = 2;
-    shader::substep = h;
-    vec3 x(start * start * start * start), sum(0);  // t^4, of dx/dt = 4 t^3
-    for (int s = 0; s < 4; ++s) {
-        const float t = start + shader::stageTime(s);
-        sum += vec3(4 * t * t * t) * shader::shareOf(s);
-    }
-    CHECK(shader::afterStage(3, x, vec3(0), sum).x == Approx(2.5 * 2.5 * 2.5 * 2.5).epsilon(1e-6));
-}
-
 TEST_CASE("the coefficients of drag agree with double precision at every rate, and where there is none",
           "[physics]") {
     for (const double rate : {1e-9, 1e-4, 0.03, 0.4, 0.7, 1.5, 30.0, 1e4, -0.2, -1.2})

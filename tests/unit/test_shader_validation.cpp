@@ -36,7 +36,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
         validator.addBoth("passes/collide.frag", pins);
         for (const Defines& set :
-             std::vector<Defines>{{"ACCELERATION"}, {"LEAPFROG", "ACCELERATION"}, {"RK4"}}) {
+             std::vector<Defines>{{"ACCELERATION"}, {"LEAPFROG", "ACCELERATION"}, {"STAGES 4"}}) {
             Defines sprung = pins;
             sprung.insert(sprung.end(), set.begin(), set.end());
             sprung.emplace_back("SPRINGS");

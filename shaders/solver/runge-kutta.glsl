@@ -1,6 +1,8 @@
-// rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
+// The explicit Runge-Kutta methods, whose coefficients stand in src/scene/solver.cpp: STAGES evaluations of everything a
+// substep, drag among it.
 // A vertex that begins a substep at rest on a collider is held by it in every stage: if it fell in the stages and were put
 // back by contact after them, the springs would have felt that, and the rest of its molecule would never lie still.
+#include "generated/stages.glsl"
 
 vec3 startPosition[VERTICES];
 vec3 startVelocity[VERTICES];
@@ -69,7 +71,7 @@ void advance(int step)
         sumAcceleration[i] = vec3(0.0);
     }
     float start = float(step) * substep;
-    for (int s = 0; s < 4; ++s) {
+    for (int s = 0; s < STAGES; ++s) {
         stage(s, s == 0 ? step : 1, start + stageTime(s));
     }
     thrust(false);
