@@ -14,8 +14,8 @@
 #include "reference/colliders.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
-#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
+#include "scene/known_colliders.h"
 
 namespace shoal::app {
 
@@ -132,26 +132,6 @@ void findIdleEmitters(const Scene& scene, std::vector<Warning>& out) {
     }
 }
 
-// How far something with an end stands out of a plane, m; nothing: it has none.
-struct HeightOver {
-    const PlaneCollider& plane;
-    double of(const glm::dvec3& x) const { return glm::dot(glm::normalize(plane.normal), x - plane.point); }
-    template <typename Kind>
-    std::optional<double> operator()(const Kind&) const {
-        return {};
-    }
-    std::optional<double> operator()(const SphereCollider& sphere) const {
-        return of(sphere.center) + sphere.radius;
-    }
-    std::optional<double> operator()(const CapsuleCollider& capsule) const {
-        return std::max(of(capsule.from), of(capsule.to)) + capsule.radius;
-    }
-    std::optional<double> operator()(const BoxCollider& box) const {
-        const glm::dvec3 normal = glm::inverse(box.rotation) * glm::normalize(plane.normal);
-        return of(box.center) + 0.5 * glm::dot(glm::abs(normal), box.size);
-    }
-};
-
 void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
     const bool touches =
         std::any_of(scene.groups.begin(), scene.groups.end(), [](const Group& g) { return g.collide; });
@@ -165,10 +145,12 @@ void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
         if (!touches && !scene.groups.empty() && !collider.draw) tell("\"collide\" of all groups is false");
         if (collider.path) continue;
         for (const Collider& other : scene.colliders) {
-            const auto* plane = std::get_if<PlaneCollider>(&*other.shape);
+            const auto* plane = kindOf<PlaneCollider>(*other.shape);
             if (!plane || other.path || !touches) continue;
-            const std::optional<double> height = std::visit(HeightOver{*plane}, *collider.shape);
-            if (height && *height < 0) tell(concat("it lies wholly behind \"", other.name, "\""));
+            const glm::dvec3 normal = glm::normalize(plane->normal);
+            const std::optional<double> highest = supportOf(*collider.shape, normal);
+            if (highest && *highest < glm::dot(normal, plane->point))
+                tell(concat("it lies wholly behind \"", other.name, "\""));
         }
     }
 }

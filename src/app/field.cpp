@@ -10,8 +10,8 @@
 #include "core/printable.h"
 #include "geometry/mesh.h"
 #include "run/progress.h"
-#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
+#include "scene/known_colliders.h"
 
 namespace shoal::app {
 
@@ -191,7 +191,7 @@ std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warnin
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {
-        const auto* field = std::get_if<DistanceFieldCollider>(&*collider.shape);
+        const auto* field = kindOf<DistanceFieldCollider>(*collider.shape);
         if (!field) continue;
         for (const Model& model : scene.models)
             if (model.name == field->model)

@@ -6,7 +6,7 @@
 #include "app/commands.h"
 #include "core/error.h"
 #include "molecule/analysis.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {

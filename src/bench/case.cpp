@@ -7,6 +7,7 @@
 #include "measure/method_runner.h"
 #include "molecule/molecule_file.h"
 #include "scene/field_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal::bench {
 
@@ -270,7 +271,7 @@ BaselineStep baselineStep(const Scene& scene) {
     const double h = 1 / scene.frameRate / scene.solver.substeps;
     const double gamma = scene.groups[0].drag.tangent;
     const Collider& ground = scene.colliders[0];
-    const auto& plane = std::get<PlaneCollider>(*ground.shape);
+    const auto& plane = *kindOf<PlaneCollider>(*ground.shape);
     BaselineStep out;
     out.h = float(h);
     out.substeps = scene.solver.substeps;

@@ -9,7 +9,6 @@
 
 #include "bench/baseline.h"
 #include "compile/path.h"
-#include "scene/collider_kinds.h"
 #include "scene/scene.h"
 
 namespace shoal::bench {

@@ -16,7 +16,7 @@
 #include <glm/glm.hpp>
 
 #include "bench/baseline.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 #include "scene/placement.h"
 
 namespace shoal::bench {

@@ -2,8 +2,8 @@
 
 #include "bench/particles.h"
 #include "core/error.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal::bench {
 

@@ -82,7 +82,7 @@ ParticleStep loopStep(const ParticleCase& one, const Scene& scene) {
     out.gravity = scene.gravity;
     out.wind = std::get<UniformField>(*scene.fields[0].shape).velocity;
     out.drag = group.drag.tangent;
-    if (one.heights) out.heights = &std::get<HeightFieldCollider>(*scene.colliders[0].shape);
+    if (one.heights) out.heights = kindOf<HeightFieldCollider>(*scene.colliders[0].shape);
     if (one.turnover == 0) return out;
     out.births = int(one.turnover * one.count());
     out.life = glm::dvec2(0.5, 1.5) / one.turnover / one.frameRate;

@@ -5,7 +5,7 @@
 
 #include "compile/call_writer.h"
 #include "compile/pack.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -69,7 +69,7 @@ void ColliderTable::add(const Collider& collider, size_t number, size_t material
     CallFrame frame{.origin = middle_};
     if (isFar()) frame.anchor = "(anchor - middle)";
     CallWriter writer("t#", 0, nullptr, std::move(frame));
-    Kind& kind = kinds_[collider.shape->index()];
+    Kind& kind = kinds_[kindIndex(*collider.shape)];
     kind.surface = writer.text(callOf(*collider.shape), false);
     kind.thickness = writer.number(collider.thickness);
     kind.read = writer.parameters.size();

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/contract.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 
 namespace shoal {
@@ -40,15 +39,6 @@ struct FieldCosts {
     }
     ReadingCost operator()(const WavesField& waves) const { return {30.0 * double(waves.trains.size()), 0}; }
     ReadingCost operator()(const HurricaneField&) const { return {60, 0}; }
-};
-
-struct ColliderCosts {
-    ReadingCost operator()(const PlaneCollider&) const { return {planeOperations, 0}; }
-    ReadingCost operator()(const SphereCollider&) const { return {10, 0}; }
-    ReadingCost operator()(const HeightFieldCollider&) const { return {40, 4}; }
-    ReadingCost operator()(const BoxCollider&) const { return {45, 0}; }
-    ReadingCost operator()(const CapsuleCollider&) const { return {25, 0}; }
-    ReadingCost operator()(const DistanceFieldCollider&) const { return {70, 8}; }
 };
 
 ReadingCost& operator+=(ReadingCost& a, const ReadingCost& b) {
@@ -128,10 +118,6 @@ double occupancyOf(const KernelCost& cost, int workgroup) {
 
 ReadingCost costOf(const FieldShape& shape) {
     return std::visit(FieldCosts(), shape);
-}
-
-ReadingCost costOf(const ColliderShape& shape) {
-    return std::visit(ColliderCosts(), shape);
 }
 
 size_t bytesPerMolecule(const GroupPlan& group, bool drawn) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "compile/path.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -24,15 +25,8 @@ size_t bytesPerMolecule(const GroupPlan& group, bool drawn);
 // One evaluation takes:
 constexpr double springOperations = 35;  // with damping
 constexpr double motionOperations = 12;  // of a vertex: drag and gravity 6, moving 6
-constexpr double planeOperations = 6;    // of a vertex: the distance from a plane
 
-// One reading of a kind of field at a vertex, or one look for contact with a kind of collider.
-struct ReadingCost {
-    double operations = 0;
-    double fetches = 0;  // 4-vectors of the table of samples, or filtered reads of a tile of noise
-};
 ReadingCost costOf(const FieldShape& shape);
-ReadingCost costOf(const ColliderShape& shape);
 
 struct KernelCost {
     std::string group;

@@ -8,7 +8,7 @@
 #include "compile/collider_table.h"
 #include "compile/generate.h"
 #include "compile/pack.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -236,9 +236,7 @@ class Joint {
     bool any(auto&& holds) const { return std::any_of(colliders_->begin(), colliders_->end(), holds); }
 
     // Fields are dear to look up, and answered at the end of a short way.
-    static bool isField(const Collider& collider) {
-        return std::holds_alternative<DistanceFieldCollider>(*collider.shape);
-    }
+    static bool isField(const Collider& collider) { return isKind<DistanceFieldCollider>(collider); }
 
     bool nearestIsEnough() const {
         constexpr size_t few = 8;
@@ -247,9 +245,7 @@ class Joint {
 
     // Whether looking is dear, and no distance changes faster than the place: a height field's does.
     bool isBounded() const {
-        return still() && (any(isField) || !table_.empty()) && !any([](const Collider& collider) {
-                   return std::holds_alternative<HeightFieldCollider>(*collider.shape);
-               });
+        return still() && (any(isField) || !table_.empty()) && !any(isKind<HeightFieldCollider>);
     }
 
     const std::vector<Collider>* colliders_;

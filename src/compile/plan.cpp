@@ -16,10 +16,10 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/random.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -335,9 +335,7 @@ void fill(GroupPlan& group, const Scene& scene, Plan& plan) {
 
 void checkPlan(const Scene& scene) {
     const bool bakes =
-        std::any_of(scene.colliders.begin(), scene.colliders.end(), [](const Collider& collider) {
-            return std::holds_alternative<DistanceFieldCollider>(*collider.shape);
-        });
+        std::any_of(scene.colliders.begin(), scene.colliders.end(), isKind<DistanceFieldCollider>);
     bakes ? void(planGroups(scene, {})) : checkCounts(scene);  // else compile() follows at once
 }
 

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "molecule/gap.h"
-#include "scene/collider_kinds.h"
 #include "scene/force_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -69,22 +69,6 @@ void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& pla
                                                wind ? "wind" : "fields", " would move it: it feels none")});
 }
 
-// m: the radius of the widest that has to get through a gap when the shape does; nothing: it is as wide as
-// the world, or of unknown form.
-struct Girth {
-    template <typename Kind>
-    std::optional<double> operator()(const Kind&) const {
-        return {};
-    }
-    std::optional<double> operator()(const SphereCollider& sphere) const { return sphere.radius; }
-    std::optional<double> operator()(const CapsuleCollider& capsule) const { return capsule.radius; }
-    std::optional<double> operator()(const BoxCollider& box) const {
-        const glm::dvec3 half = 0.5 * box.size;
-        const double longest = std::max({half.x, half.y, half.z});
-        return std::sqrt(glm::dot(half, half) - longest * longest);
-    }
-};
-
 // Triangles do not touch colliders, but for the spheres of contact at their middles: what is thinner than the
 // gap that is left passes through.
 void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan& plan,
@@ -99,7 +83,7 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     size_t count = 0;
     double needed = 0;  // m, of a radius
     for (const Collider& collider : scene.colliders) {
-        const std::optional<double> girth = std::visit(Girth{}, *collider.shape);
+        const std::optional<double> girth = girthOf(*collider.shape);
         if (!girth) continue;
         if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, middles), 0);
         if (*girth + std::max(collider.thickness, radius) >= gap->radius * scale) continue;

@@ -21,7 +21,7 @@ class Boxed {
     }
     ~Boxed();
     template <typename U>
-    requires(!std::same_as<U, Boxed>) Boxed(U value) : value_(new T(std::move(value))) {}
+    requires(!std::same_as<U, Boxed>) Boxed(U value);
 
     // Not of a box that was moved from.
     T& operator*() { return *value_; }
@@ -35,6 +35,10 @@ class Boxed {
 
 template <typename T>
 Boxed<T>::Boxed() : value_(new T()) {}
+
+template <typename T>
+template <typename U>
+requires(!std::same_as<U, Boxed<T>>) Boxed<T>::Boxed(U value) : value_(new T(std::move(value))) {}
 
 template <typename T>
 Boxed<T>::Boxed(const Boxed& other) : value_(new T(*other)) {}

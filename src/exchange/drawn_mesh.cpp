@@ -152,7 +152,7 @@ DrawnMesh colliderMesh(const Collider& collider, const glm::dvec3& eye, double t
     const Pose pose = collider.path ? poseAt(*collider.path, time) : Pose{};
     glm::dvec3 origin = pose.rotation * mesh.origin + pose.position;
     double scale = 1;
-    const auto* plane = std::get_if<PlaneCollider>(&*collider.shape);
+    const auto* plane = kindOf<PlaneCollider>(*collider.shape);
     if (plane) {
         const PlaneDisc disc =
             seenOf({pose.rotation * plane->point + pose.position, pose.rotation * plane->normal}, eye);

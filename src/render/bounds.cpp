@@ -3,7 +3,7 @@
 
 #include "compile/plan.h"
 #include "render/lighting.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 
@@ -68,24 +68,17 @@ static bool isCrown(const Group& group, const Box& box) {
 }
 
 // Nothing of what has no end, or is drawn as its model.
-struct ExtentOf {
-    std::optional<Box> operator()(const PlaneCollider&) const { return {}; }
-    std::optional<Box> operator()(const HeightFieldCollider&) const { return {}; }
-    std::optional<Box> operator()(const DistanceFieldCollider&) const { return {}; }
-    std::optional<Box> operator()(const SphereCollider& sphere) const {
-        return Box{sphere.center - sphere.radius, sphere.center + sphere.radius};
+static std::optional<Box> extentOf(const ColliderShape& shape) {
+    Box out;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 along(0);
+        along[axis] = 1;
+        const std::optional<double> below = supportOf(shape, -along), above = supportOf(shape, along);
+        if (!below || !above) return {};
+        out.low[axis] = -*below, out.high[axis] = *above;
     }
-    std::optional<Box> operator()(const CapsuleCollider& capsule) const {
-        return Box{glm::min(capsule.from, capsule.to) - capsule.radius,
-                   glm::max(capsule.from, capsule.to) + capsule.radius};
-    }
-    std::optional<Box> operator()(const BoxCollider& box) const {
-        const glm::dmat3 turn = glm::mat3_cast(box.rotation);
-        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box.size.x + glm::abs(turn[1]) * box.size.y +
-                                       glm::abs(turn[2]) * box.size.z);
-        return Box{box.center - half, box.center + half};
-    }
-};
+    return out;
+}
 
 // The part of a box that shadows are worth drawing in: hills a kilometre away would leave none for what is
 // near.
@@ -123,7 +116,7 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        const std::optional<Box> box = std::visit(ExtentOf(), *collider.shape);
+        const std::optional<Box> box = extentOf(*collider.shape);
         if (!box) continue;
         std::vector<ColliderPath::Keyframe> frames(1);
         if (collider.path) frames = collider.path->keyframes;

@@ -146,7 +146,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Li
         look.material.color = glm::dvec4(collider.color, 1);
         look.indexCount = int(mesh.indices.size());
         drawn.path = collider.path;
-        if (const auto* plane = std::get_if<PlaneCollider>(&*collider.shape)) {
+        if (const auto* plane = kindOf<PlaneCollider>(*collider.shape)) {
             drawn.plane = *plane;
             drawn.casts = false;
             drawn.detail = grid ? 0.35f : 0.9f;

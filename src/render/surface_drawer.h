@@ -10,7 +10,7 @@
 #include "gpu/texture.h"
 #include "render/lighting.h"
 #include "render/view.h"
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 

@@ -8,6 +8,16 @@
 namespace shoal {
 
 template class Boxed<ColliderShape>;
+template Boxed<ColliderShape>::Boxed(PlaneCollider);
+template Boxed<ColliderShape>::Boxed(HeightFieldCollider);
+
+template <typename Kind>
+const Kind* kindOf(const ColliderShape& shape) {
+    return std::get_if<Kind>(&shape);
+}
+template const PlaneCollider* kindOf(const ColliderShape&);
+template const HeightFieldCollider* kindOf(const ColliderShape&);
+template const DistanceFieldCollider* kindOf(const ColliderShape&);
 
 // ---- The kinds
 
@@ -206,6 +216,22 @@ const Description& describe(const SurfaceRule*) {
             .key("friction", &S::friction, {"", "Coulomb's coefficient.", Range::atLeast(0)})
             .rule(rule, R"({"anyOf": [{"required": ["restitution"]}, {"required": ["friction"]}]})");
     return it;
+}
+
+size_t kindIndex(const ColliderShape& shape) {
+    return shape.index();
+}
+
+std::optional<double> supportOf(const ColliderShape& shape, const glm::dvec3& direction) {
+    return std::visit([&](const auto& kind) { return kind.support(direction); }, shape);
+}
+
+std::optional<double> girthOf(const ColliderShape& shape) {
+    return std::visit([](const auto& kind) { return kind.girth(); }, shape);
+}
+
+ReadingCost costOf(const ColliderShape& shape) {
+    return std::visit([](const auto& kind) { return kind.cost; }, shape);
 }
 
 const char* kindName(const ColliderShape& shape) {

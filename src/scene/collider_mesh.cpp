@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/collider_kinds.h"
+
 namespace shoal {
 
 std::pair<glm::dvec3, glm::dvec3> tangentsOf(const glm::dvec3& normal) {

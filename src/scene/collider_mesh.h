@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/collider_kinds.h"
+#include "scene/known_colliders.h"
 
 namespace shoal {
 

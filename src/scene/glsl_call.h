@@ -17,6 +17,12 @@
 
 namespace shoal {
 
+// One reading of a kind of field at a vertex, or one look for contact with a kind of collider.
+struct ReadingCost {
+    double operations = 0;
+    double fetches = 0;  // 4-vectors of the table of samples, or filtered reads of a tile of noise
+};
+
 // One 4-vector of parameters that is renewed at the start of a frame at time t:
 //   angle    x: start + rate t, rad, less whole turns
 //   cells    rate t in cells of a lattice:  x: less whole ones;  y, z: the lower and the upper 16 bits of

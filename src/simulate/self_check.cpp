@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "gpu/program_cache.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
+#include "scene/known_colliders.h"
 #include "simulate/simulation.h"
 
 namespace shoal {

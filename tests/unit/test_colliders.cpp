@@ -62,6 +62,9 @@ TEST_CASE("every kind of collider is there, and as its closed form says", "[coll
         const reference::Surface found = reference::surfaceAt(kind.shape, kind.x);
         CHECK(glm::length(found.normal - kind.normal) < 1e-6);
         CHECK(found.distance == Approx(kind.distance).margin(1e-12));
+        // the nearest point is the furthest along its normal where the shape is convex
+        const std::optional<double> support = supportOf(kind.shape, kind.normal);
+        if (support) CHECK(*support == Approx(glm::dot(kind.x, kind.normal) - kind.distance).margin(1e-12));
         const std::optional<double> reach = reachOf(kind.shape);
         if (reach) CHECK(glm::length(kind.x - found.distance * found.normal) <= *reach);
     }

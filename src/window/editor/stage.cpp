@@ -7,8 +7,8 @@
 #include "core/json_edit.h"
 #include "gpu/gl.h"
 #include "molecule/molecule_json.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
+#include "scene/known_colliders.h"
 #include "window/editor/overlay.h"
 
 namespace shoal::window {
