@@ -14,8 +14,8 @@ constexpr double slipFrom = 1;
 
 struct Analysis;  // molecule/analysis.h
 
+// A solver is a row of the table in solver.cpp. Here are the names of those that code asks for.
 enum class SolverKind { euler, verlet, leapfrog, rk4, xpbd, bdf2Xpbd, bdf2Corotated };
-constexpr SolverKind lastSolver = SolverKind::bdf2Corotated;
 
 // The Butcher tableau of an explicit Runge-Kutta method. Stage s takes its rates k_s of position and velocity
 // at start + h (sum of a[s][j] k_j over j < s), and a substep ends at start + h (sum of b[s] k_s).
@@ -80,7 +80,7 @@ struct Solver {
     const char* shader() const { return rungeKutta() ? "runge-kutta" : name; }
 };
 
-// In the order of SolverKind.
+// Each at the place of its kind.
 std::span<const Solver> solvers();
 const Solver& solver(SolverKind kind);
 const char* name(SolverKind kind);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "gl/gl_test.h"
 #include "molecule/molecule_file.h"
 #include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
+#include "support/every_kind.h"
 
 namespace shoal::test {
 
@@ -16,14 +18,15 @@ constexpr const char* sourceFolder = SHOAL_SOURCE_DIR "/";
 const glm::dvec3 down{0, -9.81, 0};
 
 SolverKind solverOf(size_t number) {
-    return explicitSolvers[number % 4];
+    const std::vector<SolverKind> all = explicitSolvers();
+    return all[number % all.size()];
 }
 
 // Without compute shaders there is one: kernels in fragments have the text of compute shaders and take
 // minutes to compile with every solver.
 std::vector<SolverKind> solversHere() {
     if (!testContext().info().computeShaders) return {SolverKind::leapfrog};
-    return {std::begin(explicitSolvers), std::end(explicitSolvers)};
+    return explicitSolvers();
 }
 
 Group& groupOf(Scene& scene) {
@@ -63,7 +66,7 @@ void addPins(std::vector<FeatureScene>& out) {
         out.push_back({concat("pins let go by rate, ", name(solver)), byRate});
 
         // what flies apart is far from its anchor, where formulas that round otherwise differ by more
-        if (solver == SolverKind::verlet || solver == SolverKind::rk4) continue;
+        if (solver == SolverKind::verlet || shoal::solver(solver).rungeKutta()) continue;
         groupOf(byRate).molecule.springs.clear();  // nothing pulls: only the rate releases them
         // All are held: what flew metres off beside a pin would be rounded by 1e-5 of a leaf.
         for (Vertex& vertex : groupOf(byRate).molecule.vertices)
@@ -267,6 +270,7 @@ HeightFieldCollider rolling(bool sampledNormals) {
 
 std::vector<Collider> everyCollider() {
     std::vector<Collider> out(6);
+    std::set<size_t> kinds;
     out[0].shape = PlaneCollider{};
     SphereCollider sphere;
     sphere.center = {0.4, 0.5, -0.3};
@@ -277,6 +281,10 @@ std::vector<Collider> everyCollider() {
     out[4].shape =
         BoxCollider{{0.2, 0.3, 0.1}, {1.6, 0.7, 1.1}, glm::angleAxis(0.4, glm::dvec3(0.6, 0, 0.8))};
     out[5].shape = CapsuleCollider{{-0.9, 0.3, 0.2}, {0.8, 0.6, -0.3}, 0.35};
+    for (const Collider& collider : out)
+        kinds.insert(collider.shape->index());
+    for (const KindOfCollider& kind : kindsOfCollider())
+        if (kinds.insert(kind.shape.index()).second) out.emplace_back().shape = kind.shape;
     for (Collider& collider : out)
         collider.thickness = 0.01;
     return out;

@@ -87,8 +87,12 @@ inline bool finite(const Snapshot& snapshot) {
 }
 
 constexpr SolverKind bothSolvers[] = {SolverKind::euler, SolverKind::leapfrog};
-constexpr SolverKind explicitSolvers[] = {SolverKind::euler, SolverKind::leapfrog, SolverKind::verlet,
-                                          SolverKind::rk4};
+inline std::vector<SolverKind> explicitSolvers() {
+    std::vector<SolverKind> out;
+    for (const Solver& one : solvers())
+        if (!one.implicit) out.push_back(one.kind);
+    return out;
+}
 
 // All that the tested path runs.
 inline std::vector<SolverKind> solversHere() {

@@ -190,7 +190,7 @@ TEST_CASE("thrust: exponential whatever the step, to its limit and no further", 
 }
 
 TEST_CASE("a thrust at its limit and one that damps follow the reference's recurrence", "[forces]") {
-    for (const SolverKind kind : test::explicitSolvers) {
+    for (const SolverKind kind : test::explicitSolvers()) {
         Scene scene = test::sceneOf(test::point(0.3), kind, {at({1, 2, 3})});
         scene.groups[0].velocity = {0, 4, 0};
         scene.forces = {forceOf(ThrustForce{0.8, 4}), forceOf(ThrustForce{-0.2, 1})};
@@ -298,7 +298,7 @@ TEST_CASE("the two paths agree under forces", "[forces][fused][agreement]") {
     std::vector<test::Item> items;
     for (int i = 0; i < 50; ++i)
         items.push_back(at({i % 7 - 3.5, i / 7 * 0.8, i % 3 - 1.2}, test::turned(), 0.75));
-    for (const SolverKind kind : test::explicitSolvers) {
+    for (const SolverKind kind : test::explicitSolvers()) {
         Scene scene = storm(kind, items);
         Collider ground;
         ground.name = "ground";

@@ -224,7 +224,7 @@ TEST_CASE("a thin bar that turns strikes what it meets", "[numerics][contact]") 
 
 // Gravity presses on all three of a corner; halves of drifts must not add up.
 TEST_CASE("what rests in the corner of three planes stays", "[numerics][contact]") {
-    for (const SolverKind kind : test::explicitSolvers) {
+    for (const SolverKind kind : test::explicitSolvers()) {
         Scene scene = test::sceneOf(test::point(1), kind, {at({0.3, 0.2, 0.1}), at({0.01, 0.01, 0.01})});
         scene.gravity = {-4, -5, -6};
         scene.colliders = {collider(test::plane({1, 0, 0}), 0, 0.3, 0.01),

@@ -96,7 +96,7 @@ TEST_CASE("a lane a vertex leaves the bits of a lane a molecule with every expli
           "[fused][lanes]") {
     if (!canFuse()) return;
     // 15 vertices in eight rows: one place of the last row is over
-    for (const SolverKind solver : explicitSolvers) {
+    for (const SolverKind solver : explicitSolvers()) {
         INFO(name(solver));
         const Scene scene = fullScene(sheet(5, 3, true), solver);
         checkSame(scene, 12);
