@@ -38,10 +38,6 @@ Outcome outcomeOf(const Solver& solver, const HardCase& hardCase) {
     }
 }
 
-Verdict expectedNow(const std::vector<Verdict>& row, size_t index) {
-    return onPingPong() && solvers()[index].implicit ? Verdict::refuses : row[index];
-}
-
 }  // namespace
 
 const char* word(Verdict verdict) {
@@ -90,13 +86,14 @@ Outcome Judge::outcome() const {
 }
 
 void holds(const std::string& name, const HardCase& hardCase) {
-    const std::vector<Verdict>& expected = expectedOf(name);
-    REQUIRE(expected.size() == solvers().size());  // a new solver: write down what it does
     for (size_t i = 0; i < solvers().size(); ++i) {
         const Outcome outcome = outcomeOf(solvers()[i], hardCase);
         record(name, i, outcome);
         INFO(name << ", " << solvers()[i].name << ": " << outcome.figure);
-        CHECK(std::string(word(outcome.verdict)) == word(expectedNow(expected, i)));
+        const bool refused = onPingPong() && solvers()[i].implicit;
+        const std::optional<Verdict> expected = refused ? Verdict::refuses : expectedOf(name, solvers()[i]);
+        // docs/hard-cases.md lacks a row or a column: SHOAL_UPDATE_HARD=1 writes it
+        CHECK(std::string(word(outcome.verdict)) == (expected ? word(*expected) : "nothing"));
     }
 }
 

@@ -1,9 +1,7 @@
 // A hard case is run by every solver of the table and has an outcome with each: it passes, it refuses (an
 // Error before the first frame says why), or it fails honestly with a finite figure. Which one is written
-// down in expected.cpp; another outcome, better or worse, turns the test red, and so does any value that is
-// not finite.
-//
-// SHOAL_HARD_TABLE=FILE writes the table of all cases that ran as Markdown (docs/hard-cases.md).
+// down in docs/hard-cases.md; another outcome, better or worse, turns the test red, and so does any value
+// that is not finite. SHOAL_UPDATE_HARD=1 renews the document (hard/table.h).
 #pragma once
 
 #include <functional>
@@ -44,12 +42,9 @@ class Judge {
 // Runs the case with one solver, which its scenes must name. Throws what the simulation throws.
 using HardCase = std::function<void(const Solver& solver, Judge& judge)>;
 
-// Runs it with every solver and compares with expected.cpp. `name` is the row there and in the document.
+// Runs it with every solver and compares with the row `name` of the document.
 void holds(const std::string& name, const HardCase& hardCase);
 
-// The row of expected.cpp, one verdict a solver in the order of solvers().
-const std::vector<Verdict>& expectedOf(const std::string& name);
-std::vector<std::string> expectedNames();
 // Simulations of this run take the ping-pong path, on which an implicit solver is refused.
 bool onPingPong();
 

@@ -1,7 +1,10 @@
 #define CATCH_CONFIG_EXTERNAL_INTERFACES  // Catch 2: the listener
 #include "hard/table.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <sstream>
 
 #include "core/file.h"
 #include "support/catch.h"
@@ -10,14 +13,88 @@ namespace shoal::test {
 
 namespace {
 
-struct Row {
-    std::string name;
-    std::vector<Outcome> outcomes;
+constexpr const char* document = SHOAL_SOURCE_DIR "/docs/hard-cases.md";
+
+// Of a row of a Markdown table, without the spaces around them.
+std::vector<std::string> cellsOf(const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line.substr(1));
+    for (std::string cell; std::getline(in, cell, '|');) {
+        const size_t from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
+        out.push_back(from == std::string::npos ? "" : cell.substr(from, to - from + 1));
+    }
+    return out;
+}
+
+std::optional<Verdict> verdictOf(std::string cell) {
+    std::erase(cell, '*');
+    for (const Verdict verdict : {Verdict::passes, Verdict::refuses, Verdict::fails})
+        if (cell.substr(0, cell.find(':')) == word(verdict)) return verdict;
+    return {};
+}
+
+// A refusal's message names numbers of the scene: the word says it, the document explains.
+std::string cellOf(const Outcome& outcome) {
+    if (outcome.verdict == Verdict::refuses || outcome.figure.empty()) return word(outcome.verdict);
+    const std::string text = concat(word(outcome.verdict), ": ", outcome.figure);
+    return outcome.verdict == Verdict::passes ? text : concat("**", text, "**");
+}
+
+// The document around its table, and the table's rows in their order with a cell for each solver that it
+// knows.
+struct Document {
+    struct Row {
+        std::string name;
+        std::map<std::string, std::string> cells;  // by the solver's name
+    };
+    std::string before, after;
+    std::vector<Row> rows;
+
+    Document() {
+        std::istringstream in(readFile(document));
+        std::vector<std::string> head;
+        for (std::string line; std::getline(in, line);) {
+            const bool inTable = !head.empty() && after.empty() && line.starts_with("|");
+            if (head.empty() && line.starts_with("| case |"))
+                head = cellsOf(line);
+            else if (inTable && !line.starts_with("|---"))
+                addRow(head, cellsOf(line));
+            else if (!inTable)
+                (head.empty() ? before : after) += line + "\n";
+        }
+    }
+    void addRow(const std::vector<std::string>& head, const std::vector<std::string>& cells) {
+        Row& row = rows.emplace_back(Row{cells.at(0), {}});
+        for (size_t i = 1; i < cells.size(); ++i)
+            row.cells[head.at(i)] = cells[i];
+    }
+    Row* row(const std::string& name) {
+        const auto found =
+            std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+        return found == rows.end() ? nullptr : &*found;
+    }
+    void write() const {
+        std::string table = "| case |", line = "|---|";
+        for (const Solver& solver : solvers()) {
+            table += concat(" ", solver.name, " |");
+            line += "---|";
+        }
+        table += "\n" + line + "\n";
+        for (const Row& row : rows) {
+            table += concat("| ", row.name, " |");
+            for (const Solver& solver : solvers()) {
+                const auto cell = row.cells.find(solver.name);
+                table += concat(" ", cell == row.cells.end() ? "" : cell->second, " |");
+            }
+            table += "\n";
+        }
+        writeFile(document, before + table + after);
+    }
 };
 
-std::vector<Row>& rows() {
-    static std::vector<Row> all;
-    return all;
+Document& documented() {
+    static Document one;
+    return one;
 }
 
 #if __has_include(<catch2/catch_all.hpp>)
@@ -26,43 +103,34 @@ using Listener = Catch::EventListenerBase;
 using Listener = Catch::TestEventListenerBase;
 #endif
 
-// Writes the table when all tests have run, where SHOAL_HARD_TABLE names a file.
 struct TableWriter : Listener {
     using Listener::Listener;
     void testRunEnded(const Catch::TestRunStats&) override {
-        if (const char* file = std::getenv("SHOAL_HARD_TABLE")) writeFile(file, markdownTable());
+        if (updatesTable()) documented().write();
     }
 };
 CATCH_REGISTER_LISTENER(TableWriter)
 
 }  // namespace
 
+std::optional<Verdict> expectedOf(const std::string& name, const Solver& solver) {
+    const Document::Row* row = documented().row(name);
+    if (!row) return {};
+    const auto cell = row->cells.find(solver.name);
+    return cell == row->cells.end() ? std::nullopt : verdictOf(cell->second);
+}
+
+bool updatesTable() {
+    return std::getenv("SHOAL_UPDATE_HARD") != nullptr;
+}
+
 void record(const std::string& name, size_t solver, const Outcome& outcome) {
-    if (rows().empty() || rows().back().name != name) rows().push_back({name, {}});
-    rows().back().outcomes.resize(solvers().size());
-    rows().back().outcomes[solver] = outcome;
-}
-
-// A refusal's message names numbers of the scene: the word says it, the document explains.
-std::string markdownCell(const Outcome& outcome) {
-    if (outcome.verdict == Verdict::refuses || outcome.figure.empty()) return word(outcome.verdict);
-    const std::string text = concat(word(outcome.verdict), ": ", outcome.figure);
-    return outcome.verdict == Verdict::passes ? text : concat("**", text, "**");
-}
-
-std::string markdownTable() {
-    std::string head = "| case |", line = "|---|", body;
-    for (const Solver& solver : solvers()) {
-        head += concat(" ", solver.name, " |");
-        line += "---|";
-    }
-    for (const Row& row : rows()) {
-        body += concat("| ", row.name, " |");
-        for (const Outcome& outcome : row.outcomes)
-            body += concat(" ", markdownCell(outcome), " |");
-        body += "\n";
-    }
-    return concat(head, "\n", line, "\n", body);
+    if (!updatesTable() || outcome.verdict == Verdict::notFinite) return;
+    const Solver& by = solvers()[solver];
+    if (expectedOf(name, by) == outcome.verdict) return;
+    Document::Row* row = documented().row(name);
+    if (!row) row = &documented().rows.emplace_back(Document::Row{name, {}});
+    row->cells[by.name] = cellOf(outcome);
 }
 
 }  // namespace shoal::test
