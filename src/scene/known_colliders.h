@@ -1,5 +1,6 @@
-// The kinds of colliders that other rooms name, and what can be asked of any kind. A room that knows no more is not
-// built anew when a kind is added (scene/collider_kinds.h, which says what each function tells). SI units.
+// The kinds of colliders that other rooms name, and what can be asked of any kind. A room that knows no more
+// is not built anew when a kind is added (scene/collider_kinds.h, which says what each function tells). SI
+// units.
 #pragma once
 
 #include <optional>
