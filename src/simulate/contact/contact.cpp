@@ -32,7 +32,7 @@ void Contact::step(const Frame& frame, gpu::PassTimers& timers) {
     }
     const double stepTime = frame.parameters.frameTime;
     // what gravity adds in two steps is no bounce
-    const ContactTimes times = {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h};
+    const ContactStep times = {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h};
     {
         const auto timer = timers.time("contact search");
         finder_.run(times);

@@ -186,12 +186,12 @@ Program ContactData::groupStage(const ContactGroup& group, const std::string& fi
     return Program(*context, made);
 }
 
-void ContactData::setTimes(const Program& program, const ContactTimes& times) {
+void ContactData::setTimes(const Program& program, const ContactStep& times) {
     program.set("stepTime", float(times.step));
     program.set("restSpeed", float(times.restSpeed));
 }
 
-const Program& ContactData::withResponse(const Program& program, const ContactTimes& times) const {
+const Program& ContactData::withResponse(const Program& program, const ContactStep& times) const {
     with(program).set("count", contact->spheres);
     program.set("cell", float(contact->cell));
     program.set("groupCount", int(contact->groups.size()));

@@ -17,8 +17,8 @@
 
 namespace shoal {
 
-// What a step of contact is for.
-struct ContactTimes {
+// The times of a step of contact.
+struct ContactStep {
     double step;       // s
     double restSpeed;  // m/s
     double substep;    // s
@@ -62,10 +62,10 @@ class ContactData : public ContactFacts {
                             const std::vector<std::string>& defines = {}) const;
     const gpu::Program& with(const gpu::Program& program) const { return arrays.with(program); }
     // With what all stages of the response are given.
-    const gpu::Program& withResponse(const gpu::Program& program, const ContactTimes& times) const;
+    const gpu::Program& withResponse(const gpu::Program& program, const ContactStep& times) const;
     // With a part of a group: its state, and its spheres.
     const gpu::Program& withPart(const gpu::Program& program, const ContactGroup& group, size_t part) const;
-    static void setTimes(const gpu::Program& program, const ContactTimes& times);
+    static void setTimes(const gpu::Program& program, const ContactStep& times);
     // Run what respond, one of all stages of the response.
     void runResponding(const gpu::Program& program);
     void runAll(const gpu::Program& program) { arrays.run(program, 0, contact->spheres); }

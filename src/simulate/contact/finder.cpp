@@ -20,7 +20,7 @@ ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
     wake_ = data.stage("contact/rest/wake");
 }
 
-void ContactFinder::find(const Program& program, const ContactTimes& times) {
+void ContactFinder::find(const Program& program, const ContactStep& times) {
     data_->with(program).set("count", data_->contact->spheres);
     program.set("cell", float(data_->contact->cell));
     program.set("keyMask", data_->keyMask());
@@ -50,7 +50,7 @@ void ContactFinder::wake() {
     }
 }
 
-void ContactFinder::run(const ContactTimes& times) {
+void ContactFinder::run(const ContactStep& times) {
     if (data_->rests) {
         data_->with(awake_).set("count", data_->contact->spheres);
         awake_.set("listStride", int(data_->padded));

@@ -13,10 +13,10 @@ namespace shoal {
 class ContactFinder {
   public:
     explicit ContactFinder(ContactData& data);
-    void run(const ContactTimes& times);
+    void run(const ContactStep& times);
 
   private:
-    void find(const gpu::Program& program, const ContactTimes& times);
+    void find(const gpu::Program& program, const ContactStep& times);
     void wake();
 
     ContactData* data_;

@@ -29,11 +29,11 @@ void ContactRest::begin(const Frame& frame) {
 
 // m/s: the change of velocity from which on what rests wakes, a tenth of what gravity adds in a step but at
 // least the scene's `rest`.
-float ContactRest::wakeSpeed(const ContactTimes& times) const {
+float ContactRest::wakeSpeed(const ContactStep& times) const {
     return float(std::max(times.restSpeed / 20, *data_->contact->settings.rest));
 }
 
-void ContactRest::run(const ContactTimes& times) {
+void ContactRest::run(const ContactStep& times) {
     data_->withResponse(loadChange_, times).set("wakeSpeed", wakeSpeed(times));
     data_->arrays.runIndirect(loadChange_, "markGroups", ContactData::markedGroups);
     for (size_t g = 0; g < groups_.size(); ++g) {

@@ -16,7 +16,7 @@ class ContactRest {
     explicit ContactRest(ContactData& data);
     // Before the step of all groups.
     void begin(const Frame& frame);
-    void run(const ContactTimes& times);
+    void run(const ContactStep& times);
     bool wakes() const { return wakes_; }  // all that rests, in this step
     // Whether what rests is stepped as well, in vain, to see whether it would move.
     bool probes(size_t group) const { return groups_[group].probes; }
@@ -28,7 +28,7 @@ class ContactRest {
         std::vector<glm::vec4> numbers;
         bool probes = false;
     };
-    float wakeSpeed(const ContactTimes& times) const;
+    float wakeSpeed(const ContactStep& times) const;
 
     ContactData* data_;
     std::vector<Group> groups_;

@@ -86,7 +86,7 @@ void ContactSolver::runEntries(const Program& program) {
     }
 }
 
-void ContactSolver::prepare(const ContactTimes& times) {
+void ContactSolver::prepare(const ContactStep& times) {
     if (data_->textures) {
         runEntries(data_->withResponse(prepareEntries_, times));
         data_->arrays.rotate({"impulses", "earlierImpulses", "nextImpulses"});
@@ -118,7 +118,7 @@ void ContactSolver::findVelocities(float momentum) {
     });
 }
 
-void ContactSolver::solve(const ContactTimes& times, int iteration) {
+void ContactSolver::solve(const ContactStep& times, int iteration) {
     const int iterations = data_->contact->settings.iterations;
     const float momentum = ContactPlan::momentum(iteration, iterations);
     if (data_->spreads) findVelocities(momentum);
@@ -146,12 +146,12 @@ void ContactSolver::solve(const ContactTimes& times, int iteration) {
     if (!data_->spreads) data_->arrays.swap("velocities", "nextVelocities");
 }
 
-void ContactSolver::store(const ContactTimes& times) {
+void ContactSolver::store(const ContactStep& times) {
     data_->runResponding(data_->withResponse(store_, times));
     if (data_->textures) data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
 }
 
-void ContactSolver::apply(const ContactTimes& times) {
+void ContactSolver::apply(const ContactStep& times) {
     forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].apply, group, part);
@@ -169,7 +169,7 @@ void ContactSolver::apply(const ContactTimes& times) {
     data_->arrays.settle();
 }
 
-void ContactSolver::applyGains(const ContactTimes& times) {
+void ContactSolver::applyGains(const ContactStep& times) {
     forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
         const ContactGroup& group = data_->contact->groups[g];
         const bool many = group.triangles || data_->isRigid(group);  // spheres act on a vertex
@@ -188,7 +188,7 @@ void ContactSolver::applyGains(const ContactTimes& times) {
     });
 }
 
-void ContactSolver::run(const ContactTimes& times) {
+void ContactSolver::run(const ContactStep& times) {
     if (data_->remembers) {
         prepare(times);
         for (int i = 0; i < data_->contact->settings.iterations; ++i)

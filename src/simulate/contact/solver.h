@@ -19,7 +19,7 @@ namespace shoal {
 class ContactSolver {
   public:
     explicit ContactSolver(ContactData& data);
-    void run(const ContactTimes& times);
+    void run(const ContactStep& times);
 
   private:
     struct Group {
@@ -38,14 +38,13 @@ class ContactSolver {
                    const ContactData::Spheres& spheres);
     void runEntries(const gpu::Program& program);  // in fragments
 
-    void prepare(const ContactTimes& times);
+    void prepare(const ContactStep& times);
     void countEffective();
-    void constrain(const ContactTimes& times);
-    void solve(const ContactTimes& times, int iteration);
+    void solve(const ContactStep& times, int iteration);
     void findVelocities(float momentum);
-    void store(const ContactTimes& times);
-    void apply(const ContactTimes& times);
-    void applyGains(const ContactTimes& times);
+    void store(const ContactStep& times);
+    void apply(const ContactStep& times);
+    void applyGains(const ContactStep& times);
 
     ContactData* data_;
     std::vector<Group> groups_;
