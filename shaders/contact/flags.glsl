@@ -1,4 +1,5 @@
-// The flags of contact's words, and who reads and sets them. Only this file knows in which bits they are.
+// The flags of contact's words. Of shaders this file alone knows in which bits they are; those of a count, which a saved state has, stand in
+// src/simulate/contact/readback.cpp as well.
 
 // With a slot's count of contacts. HELD: a collider holds it, which its step has not answered. RESPONDS: it takes part in the response,
 // as it does with contacts, where it is held, and in the step after, because what contacts remember has acted on it since. Neither is

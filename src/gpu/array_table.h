@@ -3,18 +3,17 @@
 //
 // A shader names what it reads and what it writes; a name counts once, wherever it stands:
 //
-//   #pragma reads places counts     values of the last stage: placesAt(slot), countsAt(slot)
-//   #pragma writes totals           putTotals(slot, k, value), of the element that the lane or texel is for;
-//                                   putAllTotals(slot, values)
-//   #pragma updates marks           both, of marksBuffer[slot], which atomics take; with buffers only, and
-//   before
-//                                   what reads it
+//   #pragma reads places counts   the last stage's values: placesAt(slot), countsAt(slot)
+//   #pragma writes totals         the own element's: putTotals(slot, k, value), putAllTotals(slot, values)
+//   #pragma updates marks         both; atomics take marksBuffer[slot]. It stands before what reads it
 //
-// With buffers a lane writes where it likes. In fragments `writes` makes the outputs of the pass, whose
-// targets follow from their names (Program::written); of an array that has a value for each entry of a list a
-// pass writes some entries, from `firstEntry` on, and calls putEntries() at its end. So that a pass has one
-// text for both, fragments only read what it updates, and what it puts into an array of the other form goes
-// nowhere.
+// With buffers a lane writes where it likes, into at most 8 arrays (Program). In fragments `writes` makes the
+// outputs of the pass, whose targets follow from their names (Program::written); of an array that has a value
+// for each entry of a list a pass writes some entries, from `firstEntry` on, and calls putEntries() at its
+// end.
+//
+// So that a pass has one text for both, fragments only read what it updates, and what it puts into an array
+// that the other form alone has goes nowhere.
 #pragma once
 
 #include <map>

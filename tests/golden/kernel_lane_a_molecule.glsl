@@ -185,18 +185,6 @@ vec3 velocityAfter(vec3 dragged, vec3 moved)
 {
     return dragged;
 }
-float stageTime(int stage)
-{
-    return stage == 0 ? 0.0f : stage == 3 ? substep : 0.5f * substep;
-}
-float shareOf(int stage)
-{
-    return stage == 0 || stage == 3 ? 1.0f / 6.0f : 1.0f / 3.0f;
-}
-vec3 afterStage(int stage, vec3 start, vec3 rate, vec3 sum)
-{
-    return start + (stage == 3 ? sum : rate) * (stage < 2 ? 0.5f * substep : substep);
-}
 float dragDecay(float y)
 {
     float z = 0.5f * y;

@@ -1,5 +1,6 @@
 // The stage of contact/response/pair.glsl that is repeated: one Jacobi iteration of all impulses. In fragments a pass works out some impulses
-// (ENTRIES), and another the colliders' and the sums. With buffers the FIRST iteration also works out the constraints for all.
+// (ENTRIES), and another the colliders' and the sums. With buffers the FIRST iteration also works out the constraints for all, and what an
+// iteration makes takes the place of `earlierImpulses`, which are `impulses` from then on; in fragments it makes `nextImpulses`.
 #pragma updates impulses earlierImpulses
 #ifdef WALLS
 #pragma updates colliderImpulses earlierColliderImpulses

@@ -95,7 +95,6 @@ void main()
     if (gl_GlobalInvocationID.x >= marked) return;
     int slot = int(markedSlotsAt(int(gl_GlobalInvocationID.x)));
     if (!rests(slot)) return;
-    loadSphere(slot);
     int sphere = sphereOf(slot);
     float was = restLoadsAt(sphere).w;
     if (was < 0.0) {

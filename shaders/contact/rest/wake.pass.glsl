@@ -1,6 +1,6 @@
 // A lane a slot: an impact wakes the molecule that it strikes, and all within as many contacts of it as the response has
 // iterations, because no impulse gets further in a step; what these touch in turn is touched by something awake. Dispatched
-// once for each of these contacts.
+// once for what is struck, and once more for each of these contacts.
 #include "state/lanes.glsl"
 #include "contact/rest/marks.glsl"
 #include "contact/slots.glsl"

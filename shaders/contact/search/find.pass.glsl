@@ -14,7 +14,7 @@
 // A molecule that an impact further away has woken has not moved yet: it touches what it did.
 void recall(int slot)
 {
-    searching = slot;
+    loadOwn(slot);
     int sphere = sphereOf(slot);
     found = rememberedBy(sphere);
     for (int e = 0; e < found; ++e) putLists(slot, e, uint(partnerSlot(sphere, e)));

@@ -56,7 +56,7 @@ class ContactData : public ContactFacts {
     // Spheres that a context holds in buffers, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
-    // A stage of all spheres, contact/FILE.pass.glsl, and of one group.
+    // A stage of all spheres, FILE.pass.glsl below the shaders' root, and of one group.
     gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {}) const;
     gpu::Program groupStage(const ContactGroup& group, const std::string& file,
                             const std::vector<std::string>& defines = {}) const;

@@ -38,7 +38,7 @@ void ContactFinder::find(const Program& program, const ContactStep& times) {
         data_->runAll(program);
 }
 
-// As many contacts away from an impact as an impulse gets in a step, and as there are bits for.
+// As many contacts away from an impact as an impulse gets in a step, but no more than there are bits for.
 void ContactFinder::wake() {
     const int furthest = std::min(data_->contact->settings.iterations, 24);
     for (int away = 0; away <= furthest; ++away) {

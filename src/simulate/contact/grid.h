@@ -1,9 +1,8 @@
 // The grid of contact (shaders/contact/grid): the spheres of all molecules, from the state, in the order of
 // their cells.
 //
-//   spheres    of each group: place, motion and cell, the key of that, and the colliders near it (in
-//   fragments,
-//              colliders)
+//   spheres    of each group: place, motion and cell, the key of that, and the colliders near it (for which
+//              fragments have a pass `colliders`)
 //   keys       ascending: with buffers by a radix sort or, on a GPU, by counting: starts, where each cell
 //              begins, and members, the spheres of each; in fragments by a sorting network, and then starts
 //              by bisection
