@@ -1,4 +1,4 @@
-// What is sorted: for every entry of all grids, the key of the cell of its body, and the number of the body. The dead lie in
+// Keys and bodies, to be sorted: for every entry of all grids, the key of the cell of its body, and the number of the body. The dead lie in
 // no cell that is looked into: their place is far away.
 #include "state/lanes.glsl"
 #include "school/grid.glsl"

@@ -1,4 +1,4 @@
-// What members of a school read of one another, in the order of the sorted keys.
+// Places and velocities, which members of a school read of one another, in the order of the sorted keys.
 #include "state/lanes.glsl"
 #pragma reads sorted bodies
 #pragma writes places velocities

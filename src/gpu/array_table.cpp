@@ -141,7 +141,7 @@ const ArrayRow& ArrayTable::row(std::string_view name, const Location& asker) co
                               near.empty() ? "" : concat(" (did you mean \"", near, "\"?)")));
 }
 
-// What is put there is put nowhere.
+// Declares that values put into an array of the other form go nowhere.
 static std::string nowhere(const ArrayRow& row) {
     const std::string name = capital(row.name);
     return concat("#define put", name, "(", argumentsOf(row, ""), ", value)\n#define putAll", name,

@@ -1,4 +1,4 @@
-// What is sorted in fragments, two spheres a texel.
+// The keys that fragments sort, two spheres a texel.
 #include "state/lanes.glsl"
 #include "physics/cells.glsl"
 #pragma reads sphereCells spherePlaces

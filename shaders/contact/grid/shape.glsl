@@ -5,10 +5,15 @@
 // Set by C++: VERTICES, SPHERES, POSITION_ELEMENTS, STATE_ELEMENTS, BLOCK or with LAYERED STATE_WIDTH.
 #include "state/packed.glsl"
 #include "state/lanes.glsl"
-#pragma reads shapes
+#pragma reads shapes slots
 
 uniform int firstShape;   // of the group
 uniform int firstSphere;  // of the group, or of its part
+
+int slotOf(int sphere)
+{
+    return int(slotsAt(sphere));
+}
 
 vec4 shapeOf(int k)
 {

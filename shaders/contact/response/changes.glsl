@@ -2,7 +2,7 @@
 // vertices or on a rigid body (RIGID).
 #include "contact/grid/shape.glsl"
 #include "contact/flags.glsl"
-#pragma reads slots counts totals
+#pragma reads counts totals
 #ifdef APPLIES
 #pragma reads warmStart
 #else
@@ -17,12 +17,7 @@ int moleculeSphere(int molecule)
     return firstSphere + molecule * SPHERES;
 }
 
-int slotOf(int sphere)
-{
-    return int(slotsAt(sphere));
-}
-
-// What contacts do to a sphere, or the changes that this makes: m/s, m and m/s.
+// The sums of a sphere's contacts, or the changes that they make: m/s, m and m/s.
 struct Total {
     vec3 impulse;  // N s
     vec3 shift;    // kg m

@@ -1,4 +1,4 @@
-// What a contact asks of its impulse, the same in all iterations of a step: worked out once, with buffers in the first iteration and in
+// The constraint of a contact's impulse, the same in all iterations of a step: worked out once, with buffers in the first iteration and in
 // fragments in a pass before it, and kept in two parts.
 #include "contact/response/pair.glsl"
 

@@ -3,13 +3,8 @@
 #include "contact/grid/shape.glsl"
 #include "contact/flags.glsl"
 #include "physics/pair.glsl"
-#pragma reads slots counts contactSums
+#pragma reads counts contactSums
 #pragma writes effectiveCounts
-
-int slotOf(int sphere)
-{
-    return int(slotsAt(sphere));
-}
 
 ContactSum contactsOf(int sphere)
 {

@@ -1,4 +1,4 @@
-// What contact adds to the vertices of one group, in fragments, and what acts on them over the next step. With MANY the contacts of several
+// The gains of the vertices of one group from contact, in fragments, and the loads on them over the next step. With MANY the contacts of several
 // spheres act on a vertex (contact/response/changes.glsl).
 #ifdef MANY
 #include "contact/response/changes.glsl"

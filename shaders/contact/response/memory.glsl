@@ -1,4 +1,4 @@
-// What the last step has left of the contacts of a sphere: with buffers by sphere, so that a sphere that rests costs nothing; in fragments
+// The memory that the last step has left of the contacts of a sphere: with buffers by sphere, so that a sphere that rests costs nothing; in fragments
 // by the slot that it had.
 #include "contact/slots.glsl"
 #ifdef TEXTURES

@@ -4,7 +4,7 @@
 //   solve     one Jacobi iteration of all impulses, friction among them, and of what pushes overlaps apart
 //   store     how far the contacts move the spheres, and what they remember for the next step
 //
-// What contacts remember acts as a force over the step that follows (contact/response/apply.pass.glsl), so that what rests is at rest for
+// The impulses that contacts remember act as a force over the step that follows (contact/response/apply.pass.glsl), so that what rests is at rest for
 // any solver; the response finds only what is missing. A contact is an entry of both spheres' lists. Both work out the same for it,
 // to the bit, from the same numbers: only gathers.
 #include "contact/search/responding.glsl"

@@ -5,7 +5,8 @@
 #pragma updates marks memoryCounts partners keptImpulses keptAnchors restLoads
 #include "contact/response/pair.glsl"
 #include "contact/rest/mark_groups.glsl"
-#pragma reads slots markedSlots warmStart
+#include "contact/rest/partners.glsl"
+#pragma reads markedSlots warmStart
 #ifdef WALLS
 #pragma reads colliderImpulses
 #endif
@@ -19,16 +20,11 @@ bool isListed(int slot, int other)
     return found;
 }
 
-int rememberedOf(int sphere)
-{
-    return listedIn(memoryCountsAt(sphere));
-}
-
 // The contact of two spheres as the memory of the other one has it.
 ContactImpulse mirrored(int sphere, int other)
 {
     int place = -1;
-    for (int e = 0; e < rememberedOf(other); ++e) place = int(partnersAt(other, e)) == sphere ? e : place;
+    for (int e = 0; e < rememberedBy(other); ++e) place = int(partnersAt(other, e)) == sphere ? e : place;
     if (place < 0) return noImpulse(NO_PART);
     ContactImpulse theirs = impulseFrom(keptImpulsesAt(other, place), keptAnchorsAt(other, place));
     theirs.impulse = -theirs.impulse;
@@ -52,7 +48,7 @@ void add(inout Pushes pushes, vec3 push)
 Pushes pushesOn(int sphere)
 {
     Pushes all = Pushes(vec3(0.0), 0.0);
-    for (int e = 0; e < rememberedOf(sphere); ++e) add(all, keptImpulsesAt(sphere, e).xyz);
+    for (int e = 0; e < rememberedBy(sphere); ++e) add(all, keptImpulsesAt(sphere, e).xyz);
 #ifdef WALLS
     for (int k = 0; k < MOST_COLLIDERS; ++k) add(all, colliderImpulsesAt(sphere, k).xyz);
 #endif
@@ -64,9 +60,9 @@ bool renew(int slot, int sphere)
 {
     bool hasLost = false;
     int kept = 0;
-    for (int e = 0; e < rememberedOf(sphere); ++e) {
+    for (int e = 0; e < rememberedBy(sphere); ++e) {
         uint partner = partnersAt(sphere, e);
-        int other = int(slotsAt(int(partner)));
+        int other = partnerSlot(sphere, e);
         bool stays = rests(other);
         hasLost = hasLost || !(stays || isListed(slot, other));
         if (!stays) continue;

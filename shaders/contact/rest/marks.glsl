@@ -1,4 +1,4 @@
-// What a step marks slots with whose molecule rests (contact/flags.glsl), and a list of the marked ones.
+// The marks that a step gives slots whose molecule rests (contact/flags.glsl), and a list of the marked ones.
 #include "contact/flags.glsl"
 #include "contact/rest/mark_groups.glsl"
 #pragma updates marks markedSlots

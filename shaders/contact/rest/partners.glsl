@@ -1,4 +1,4 @@
-// What a sphere has touched since before it came to rest.
+// The spheres that one has touched since before it came to rest.
 #pragma reads memoryCounts partners slots
 #include "contact/slots.glsl"
 

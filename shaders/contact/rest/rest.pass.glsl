@@ -6,7 +6,7 @@
 #include "contact/grid/shape.glsl"
 #include "contact/flags.glsl"
 #include "contact/rest/states.glsl"
-#pragma reads slots cells marks sphereMotions
+#pragma reads cells marks sphereMotions
 #ifdef RELEASE
 uniform VALUES oldRecords;
 #endif
@@ -18,11 +18,6 @@ uniform bool probes;         // what rests has been stepped
 uniform bool wakes;          // all molecules of the group
 
 layout(std430) buffer State { float state[]; };
-
-int slotOf(int sphere)
-{
-    return int(slotsAt(sphere));
-}
 
 vec3 stateVector(int first, int vertex)
 {

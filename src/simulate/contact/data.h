@@ -1,5 +1,5 @@
-// What all stages of contact share: the arrays on the GPU (shaders/contact/arrays.txt), what the scene has of
-// contact, and how their programs are made and run.
+// All stages of contact share the arrays on the GPU (shaders/contact/arrays.txt), the facts of the scene's
+// contact, and the ways in which programs are made and run.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct ContactStep {
     double substep;    // s
 };
 
-// What a scene has of contact, on a path.
+// The facts of a scene's contact, on a path.
 struct ContactFacts {
     bool textures, fused;
     bool counted;  // the cells are filled by counting instead of sorting
@@ -79,6 +79,15 @@ class ContactData : public ContactFacts {
     };
     Spheres spheresOf(const ContactGroup& group, const ContactState::Part& part) const {
         return {group.firstSphere + part.first * group.spheresOf, part.count * group.spheresOf};
+    }
+    // Calls visit(number of the group with contact, number of its part, part) for the parts of all groups.
+    template <typename Visit>
+    void forParts(const Visit& visit) const {
+        for (size_t g = 0; g < contact->groups.size(); ++g) {
+            const std::vector<ContactState::Part> parts = state->parts(contact->groups[g].group);
+            for (size_t p = 0; p < parts.size(); ++p)
+                visit(g, p, parts[p]);
+        }
     }
     // The numbers of the colliders of a group.
     void setColliders(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;

@@ -38,48 +38,45 @@ void ContactGrid::setStep(const Program& program, const ContactGroup& group, con
 }
 
 void ContactGrid::makeSpheres(const Frame& frame, bool wakes, bool isStaggered) {
-    for (size_t g = 0; g < groups_.size(); ++g) {
+    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
         const ContactGroup& group = data_->contact->groups[g];
-        const std::vector<ContactState::Part> parts = data_->state->parts(group.group);
-        for (size_t p = 0; p < parts.size(); ++p) {
-            const Program& program = data_->withPart(groups_[g].spheres, group, p);
-            program.set("label", int(uint32_t(g) << 26) + parts[p].first);
-            setStep(program, group, frame);
-            if (!data_->textures) {
-                program.set("keys", data_->keyMask() + 1);
-                if (data_->colliders && data_->planOf(group).needs.collide)
-                    data_->setColliders(program, group, frame);
-                if (data_->rests) program.set("wakes", int(wakes));
-            }
-            if (!data_->textures && data_->staggers) {
-                if (isStaggered && !data_->counted)
-                    program.storage("Sorted", data_->arrays.buffer("staggered"));
+        const Program& program = data_->withPart(groups_[g].spheres, group, p);
+        program.set("label", int(uint32_t(g) << 26) + part.first);
+        setStep(program, group, frame);
+        if (!data_->textures) {
+            program.set("keys", data_->keyMask() + 1);
+            if (data_->colliders && data_->planOf(group).needs.collide)
+                data_->setColliders(program, group, frame);
+            if (data_->rests) program.set("wakes", int(wakes));
+            if (data_->staggers) {
                 program.set("cellShift", glm::vec3(isStaggered ? float(data_->contact->cell / 2) : 0.0f));
                 program.set("onlyKeys", int(isStaggered));
             }
-            const auto [first, count] = data_->spheresOf(group, parts[p]);
-            data_->arrays.run(program, first, count);
         }
-    }
+        const auto [first, count] = data_->spheresOf(group, part);
+        data_->arrays.run(program, first, count);
+    });
 }
 
 void ContactGrid::makeColliders(const Frame& frame) {
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        if (!groups_[g].colliders) continue;
+    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
+        if (!groups_[g].colliders) return;
         const ContactGroup& group = data_->contact->groups[g];
-        const Program& program = data_->withPart(groups_[g].colliders, group, 0);
+        const Program& program = data_->withPart(groups_[g].colliders, group, p);
         data_->setColliders(program, group, frame);
         setStep(program, group, frame);
-        const auto [first, count] = data_->spheresOf(group, data_->state->parts(group.group)[0]);
+        const auto [first, count] = data_->spheresOf(group, part);
         data_->arrays.run(program, first, count);
-    }
+    });
 }
 
 void ContactGrid::sortByRadix(bool isStaggered) {
     data_->arrays.settle();
-    radix_->sort(data_->arrays.buffer(isStaggered ? "staggered" : "sorted"), size_t(data_->contact->spheres),
-                 data_->contact->tableBits);
+    radix_->sort(data_->arrays.buffer("sorted"), size_t(data_->contact->spheres), data_->contact->tableBits);
     data_->arrays.settle();
+    if (isStaggered) return;
+    data_->with(order_).set("keys", data_->keyMask() + 1);
+    data_->runAll(order_);
 }
 
 void ContactGrid::count(bool isStaggered) {
@@ -90,7 +87,6 @@ void ContactGrid::count(bool isStaggered) {
     data_->runAll(members_);
     data_->with(order_);
     if (data_->staggers) order_.set("onlyKeys", int(isStaggered));
-    if (isStaggered) order_.storage("Sorted", data_->arrays.buffer("staggered"));
     data_->runAll(order_);
 }
 
@@ -122,14 +118,11 @@ void ContactGrid::build(const Frame& frame, bool wakes) {
     for (const bool isStaggered : {true, false}) {
         if (isStaggered && !data_->staggers) continue;
         makeSpheres(frame, wakes, isStaggered);
-        if (data_->counted) {
+        if (data_->counted)
             count(isStaggered);
-            continue;
-        }
-        sortByRadix(isStaggered);
-        if (isStaggered) continue;
-        data_->with(order_).set("keys", data_->keyMask() + 1);
-        data_->runAll(order_);
+        else
+            sortByRadix(isStaggered);
+        if (isStaggered) data_->arrays.swap("sorted", "staggered");  // which the grid itself sorts anew
     }
 }
 

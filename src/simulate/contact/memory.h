@@ -18,7 +18,7 @@ struct ContactMemory {
     std::vector<uint32_t> partners;
     std::vector<glm::vec4> pushes, anchors;
     std::vector<glm::vec4> known;  // N s, of each sphere: the sum of what its contacts remember
-    // Of each sphere what those impulses are on its vertex, m/s^2, with in w who moves it
+    // The acceleration of each sphere's vertex by those impulses, m/s^2, with in w who moves it
     // (shaders/contact/rest/states.glsl); and its rest pose or, while it rests, its rest load
     // (shaders/contact/arrays.txt).
     std::vector<glm::vec4> loads, calm;

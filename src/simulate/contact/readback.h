@@ -1,4 +1,4 @@
-// What contact found and remembers, read back and written, in either form of its arrays.
+// Contacts that were found and remembered, read back and written, in either form of the arrays.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ uint32_t droppedContacts(const ContactData& data);
 std::vector<std::pair<int, int>> foundPairs(const ContactData& data);
 // Empty: nothing is remembered.
 ContactMemory readMemory(const ContactData& data);
-// Of another number of spheres, nothing is remembered.
+// Memory of another number of spheres is dropped.
 void writeMemory(ContactData& data, const ContactMemory& memory);
 
 }  // namespace shoal

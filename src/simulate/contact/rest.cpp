@@ -36,22 +36,18 @@ float ContactRest::wakeSpeed(const ContactStep& times) const {
 void ContactRest::run(const ContactStep& times) {
     data_->withResponse(loadChange_, times).set("wakeSpeed", wakeSpeed(times));
     data_->arrays.runIndirect(loadChange_, "markGroups", ContactData::markedGroups);
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const Program& program = groups_[g].rest;
-        if (!program) continue;
+    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
+        if (!groups_[g].rest) return;
         const ContactGroup& group = data_->contact->groups[g];
-        const std::vector<ContactState::Part> parts = data_->state->parts(group.group);
-        for (size_t p = 0; p < parts.size(); ++p) {
-            data_->withPart(program, group, p);
-            program.set("stepTime", float(times.step));
-            program.set("restTime", float(ContactPlan::restTime));
-            program.set("restDistance", float(*data_->contact->settings.rest * ContactPlan::restTime));
-            program.set("wakeSpeed", wakeSpeed(times));
-            program.set("probes", int(groups_[g].probes));
-            program.set("wakes", int(wakes_));
-            data_->arrays.run(program, data_->spheresOf(group, parts[p]).first, parts[p].count);
-        }
-    }
+        const Program& program = data_->withPart(groups_[g].rest, group, p);
+        program.set("stepTime", float(times.step));
+        program.set("restTime", float(ContactPlan::restTime));
+        program.set("restDistance", float(*data_->contact->settings.rest * ContactPlan::restTime));
+        program.set("wakeSpeed", wakeSpeed(times));
+        program.set("probes", int(groups_[g].probes));
+        program.set("wakes", int(wakes_));
+        data_->arrays.run(program, data_->spheresOf(group, part).first, part.count);
+    });
     data_->arrays.settle();
 }
 

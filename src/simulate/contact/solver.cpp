@@ -35,24 +35,15 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
 }
 
 template <typename Visit>
-void ContactSolver::forParts(const Visit& visit) const {
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const ContactGroup& group = data_->contact->groups[g];
-        const std::vector<ContactState::Part> parts = data_->state->parts(group.group);
-        for (size_t p = 0; p < parts.size(); ++p)
-            visit(g, p, data_->spheresOf(group, parts[p]));
-    }
-}
-
-template <typename Visit>
 void ContactSolver::forBodies(const Visit& visit) const {
     struct Run {
         size_t group, part;
         ContactData::Spheres spheres;
     };
     std::optional<Run> run;
-    forParts([&](size_t g, size_t part, const ContactData::Spheres& more) {
+    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
         const std::vector<ContactGroup>& groups = data_->contact->groups;
+        const ContactData::Spheres more = data_->spheresOf(groups[g], molecules);
         const bool together = run && !data_->textures && data_->isRigid(groups[run->group]) &&
                               data_->isRigid(groups[g]) &&
                               run->spheres.first + run->spheres.count == more.first &&
@@ -152,17 +143,17 @@ void ContactSolver::store(const ContactStep& times) {
 }
 
 void ContactSolver::apply(const ContactStep& times) {
-    forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
         const ContactGroup& group = data_->contact->groups[g];
+        const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
         const Program& program = data_->withPart(groups_[g].apply, group, part);
         program.set("stepTime", float(times.step));
         program.set("restSpeed", float(times.restSpeed));
         program.set("substepTime", float(times.substep));
         program.set("firstSphere", spheres.first);
-        if (group.triangles || data_->isRigid(group)) {  // spheres act on a vertex
-            const int molecules = spheres.count / group.spheresOf;
-            return data_->arrays.run(program, spheres.first, molecules * data_->planOf(group).vertexCount);
-        }
+        if (group.triangles || data_->isRigid(group))  // spheres act on a vertex
+            return data_->arrays.run(program, spheres.first,
+                                     molecules.count * data_->planOf(group).vertexCount);
         program.set("partSpheres", spheres.count);
         data_->runResponding(program);
     });
@@ -170,8 +161,9 @@ void ContactSolver::apply(const ContactStep& times) {
 }
 
 void ContactSolver::applyGains(const ContactStep& times) {
-    forParts([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
+    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
         const ContactGroup& group = data_->contact->groups[g];
+        const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
         const bool many = group.triangles || data_->isRigid(group);  // spheres act on a vertex
         const Program& program =
             many ? data_->withPart(groups_[g].apply, group, part) : data_->with(groups_[g].apply);

@@ -26,11 +26,9 @@ class ContactSolver {
         gpu::Program effectiveSum, velocities, apply;
     };
 
-    // Visits the parts of all groups, or once for all groups whose rigid bodies have equally many spheres: a
-    // dispatch takes a GPU longer than what it does for a few. visit(number of the group with contact, part,
-    // spheres)
-    template <typename Visit>
-    void forParts(const Visit& visit) const;
+    // Visits the parts of all groups, but those of groups whose rigid bodies have equally many spheres once
+    // together: a dispatch takes a GPU longer than what it does for a few. visit(number of the group with
+    // contact, part, spheres)
     template <typename Visit>
     void forBodies(const Visit& visit) const;
     // A lane a sphere, or a rigid body.
