@@ -1,5 +1,5 @@
-// Offsets of the words that births write for the passes after them, so many words a group
-// (src/simulate/places.h).
+// Words of control: what births write for the passes after them, so many for each group with life
+// (src/simulate/birth_passes.h).
 const int controlDeaths = 0;       // in the last step, where they are listed
 const int controlRequested = 1;    // births of the last step: asked for,
 const int controlBorn = 2;         // and had
@@ -10,12 +10,5 @@ const int controlLost = 6;         // births that found no place, so far
 const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
-const int controlWords = 32;       // of a group
 const int mostDeathRuns = 6;
 const uint mostGroups = 65535u;    // that any device takes in one direction of a dispatch
-
-// A counter that stays at the largest number.
-uint counted(uint before, uint more)
-{
-    return before + min(more, 0xffffffffu - before);
-}

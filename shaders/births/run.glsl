@@ -3,14 +3,12 @@
 // Returns the molecule, in the part of its group's state, whose death emits newborn j of a run; -1: another dispatch reads it.
 int sourceOf(int run, int j)
 {
-    int entry = deathRuns[run].z + j / deathRuns[run].y;
-#ifdef LAYERED
-    return int(wordAt(died, entry));
-#else
-    if (entry < firstDied || entry - firstDied >= diedCount) return -1;
-    int molecule = int(died[entry - firstDied]) - sourcePlaces[run].x;
-    return molecule >= 0 && molecule < sourcePlaces[run].y ? molecule : -1;
+    int molecule = int(deathsAt(deathRuns[run].z + j / deathRuns[run].y));
+#ifndef LAYERED
+    molecule -= sourcePlaces[run].x;
+    if (molecule < 0 || molecule >= sourcePlaces[run].y) return -1;
 #endif
+    return molecule;
 }
 #endif
 
@@ -22,11 +20,11 @@ int findRun(int i, out Source source, out float at)
 #ifdef DEATH_RUNS
     int run = -1;
     for (int d = 0; d < DEATH_RUNS; ++d) {
-        if (i >= controlWord(controlBase + controlFirsts + d)) run = d;
+        if (i >= controlWord(controlFirsts + d)) run = d;
     }
     if (run >= 0) {
         ivec4 from = deathRuns[run];
-        int j = i - controlWord(controlBase + controlFirsts + run);
+        int j = i - controlWord(controlFirsts + run);
         source.molecule = sourceOf(run, j);
         if (source.molecule < 0) return -1;
         float label;

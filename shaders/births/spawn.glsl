@@ -2,8 +2,7 @@
 // the moment of its birth to the end of the frame, exact in a uniform field and of second order in the frame elsewhere. A
 // molecule flies in its rest shape, in which its springs have no force.
 //
-// Its place is LISTED, or one after another from `firstPlace`, around the capacity. With LAYERED a vertex is drawn as a
-// point onto that place, and a fragment stores what it carries.
+// With LAYERED a vertex is drawn as a point onto that place, and a fragment stores what it carries.
 #ifndef LAYERED
 #include "fused/store.glsl"
 #endif
@@ -16,7 +15,6 @@ vec3 dv[VERTICES];
 #include "generated/packing.glsl"
 #include "physics/anchor.glsl"
 #include "physics/random.glsl"
-#include "births/control.glsl"
 #include "births/emit.glsl"
 #include "state/samples.glsl"
 #include "births/given.glsl"
@@ -112,13 +110,9 @@ void shape(Start start)
 // Makes newborn i of those that find a place, and returns its place; -1: there are not so many, or another dispatch makes it.
 int newborn(int i)
 {
-    int born = givenBorn < 0 ? controlWord(controlBase + controlBorn) : givenBorn;
+    int born = givenBorn < 0 ? controlWord(controlBorn) : givenBorn;
     if (i >= born) return -1;
-#ifdef LISTED
-    int place = placeAt(i);
-#else
-    int place = (firstPlace + i) % placeCount;
-#endif
+    int place = placeOf(i);
 #ifndef LAYERED
     if (place < partFirst || place - partFirst >= partPlaces) return -1;
 #endif
@@ -151,7 +145,6 @@ void main()
 void main()
 {
     int i = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
-    if (i < firstNewborn || i - firstNewborn >= newbornCount) return;
     int place = newborn(i);
     if (place < 0) return;
     int molecule = place - partFirst;  // in the part
@@ -160,11 +153,9 @@ void main()
 #ifdef CONSTANTS
     newConstants[molecule] = constantsNow();
 #endif
-    if (givenBorn < 0) return;
     uint bit = 1u << (uint(place) & 31u);
-    uint before = atomicAnd(freeBits[place >> 5], ~bit);
-#ifndef LISTED
-    if ((before & bit) == 0u) atomicAdd(control[controlBase + controlLost], 1u);  // a life cut short
-#endif
+    uint before = atomicAnd(freeBuffer[firstWord + (place >> 5)], ~bit);
+    bool isCutShort = givenBorn >= 0 && firstPlace >= 0 && (before & bit) == 0u;  // the life that was there
+    if (isCutShort) atomicAdd(controlBuffer[8 * group + controlLost / 4][controlLost % 4], 1u);
 }
 #endif

@@ -1,4 +1,4 @@
-// How contact and schools read what they keep, all of it by one number: from buffers, or with TEXTURES (OpenGL 3.3) from
+// How contact, schools and births read what they keep, all of it by one number: from buffers, or with TEXTURES (OpenGL 3.3) from
 // textures in rows of 2^ROW_BITS texels. Written as macros because a texel is fetched from either in the same words but not
 // with the same types.
 #ifdef TEXTURES
@@ -11,10 +11,11 @@ ivec2 texelOf(int i)
     return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS);
 }
 
-// Returns the number of the texel that the pass writes.
-int ownNumber()
+// The number of the texel that the pass writes.
+#define ownNumber() numberOf(ivec2(gl_FragCoord.xy))
+
+int numberOf(ivec2 texel)
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
     return (texel.y << ROW_BITS) + texel.x;
 }
 #else

@@ -118,6 +118,41 @@ void Arrays::give(const std::string& name, const void* data, size_t values) {
         makeBuffer(entry, values, data);
 }
 
+void Arrays::write(const std::string& name, Traffic::Kind kind, const void* data, size_t values) {
+    const Entry& entry = at(name);
+    const size_t each = bytesOf(entry.row->texel);
+    EXPECTS(entry.row->count == 1 && !entry.row->ofList && entry.row->packed == 1);
+    if (table_->form() == ArrayTable::Form::buffers) return buffer(name).update(kind, 0, data, values * each);
+    const int width = 1 << sizes_.rowBits;
+    const auto* bytes = static_cast<const std::byte*>(data);
+    const auto rows = int(values >> sizes_.rowBits), rest = int(values) - rows * width;
+    const size_t whole = size_t(rows) * size_t(width) * each;
+    if (rows > 0) texture(name).upload(kind, 0, 0, width, rows, bytes, whole);
+    if (rest > 0) texture(name).upload(kind, 0, rows, rest, 1, bytes + whole, size_t(rest) * each);
+}
+
+void Arrays::writeElement(const std::string& name, Traffic::Kind kind, size_t element, const void* data) {
+    const ArrayRow& row = *at(name).row;
+    const size_t each = bytesOf(row.texel), all = each * size_t(row.count);
+    if (table_->form() == ArrayTable::Form::buffers)
+        return buffer(name).update(kind, element * all, data, all);
+    for (int k = 0; k < row.count; ++k)
+        texture(name).upload(kind, int(element & ((size_t(1) << sizes_.rowBits) - 1)),
+                             int(element >> sizes_.rowBits), 1, 1,
+                             static_cast<const std::byte*>(data) + size_t(k) * each, each, k);
+}
+
+void Arrays::readElement(const std::string& name, Traffic::Kind kind, size_t element, void* data) const {
+    const ArrayRow& row = *at(name).row;
+    const size_t each = bytesOf(row.texel), all = each * size_t(row.count);
+    if (table_->form() == ArrayTable::Form::buffers)
+        return buffer(name).download(kind, element * all, data, all);
+    for (int k = 0; k < row.count; ++k)
+        texture(name).download(kind, int(element & ((size_t(1) << sizes_.rowBits) - 1)),
+                               int(element >> sizes_.rowBits), 1, 1,
+                               static_cast<std::byte*>(data) + size_t(k) * each, each, k);
+}
+
 const Arrays::Entry* Arrays::find(std::string_view name) const {
     const auto alias = aliases_.find(name);
     const auto found = arrays_.find(alias == aliases_.end() ? name : std::string_view(alias->second));
@@ -159,6 +194,18 @@ const Arrays::Uses& Arrays::usesOf(const Program& program) const {
         const bool isUpdated = std::find(updated.begin(), updated.end(), entry->row->name) != updated.end();
         out.blocks.push_back({&block, entry, entry->row->isRecord || isUpdated});
     }
+    return out;
+}
+
+ProgramOptions Arrays::passOptions(const std::string& file, const std::string& label) const {
+    ProgramOptions out;
+    out.label = label;
+    out.arrays = table_;
+    const bool textures = table_->form() == ArrayTable::Form::textures;
+    (textures ? out.fragment : out.compute) = file + ".pass.glsl";
+    if (!textures) return out;
+    out.vertex = "passes/fullscreen.vert";
+    out.defines = {"TEXTURES", concat("ROW_BITS ", sizes_.rowBits)};
     return out;
 }
 

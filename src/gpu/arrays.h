@@ -42,6 +42,11 @@ class Arrays {
 
     // Makes an array whose content the caller has, of so many values.
     void give(const std::string& name, const void* data, size_t values);
+    // These write the first values of an array that has one an element, and all values of one element, and
+    // read the latter.
+    void write(const std::string& name, Traffic::Kind kind, const void* data, size_t values);
+    void writeElement(const std::string& name, Traffic::Kind kind, size_t element, const void* data);
+    void readElement(const std::string& name, Traffic::Kind kind, size_t element, void* data) const;
     // Another owner's, for as long as this is used.
     void lend(const std::string& name, const Texture& texture) { at(name).lent = &texture; }
     // `name` is also known as `other`.
@@ -58,6 +63,8 @@ class Arrays {
     Texture& texture(const std::string& name) { return at(name).texture; }
     const Texture& texture(const std::string& name) const { return at(name).texture; }
 
+    // The options of a pass over them, "<file>.pass.glsl" below Context::shaders().
+    ProgramOptions passOptions(const std::string& file, const std::string& label) const;
     // Uses a program and gives it all arrays that it declares. What it declares beside them is for the caller
     // to give.
     const Program& with(const Program& program) const;

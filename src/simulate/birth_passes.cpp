@@ -1,15 +1,21 @@
 #include "simulate/birth_passes.h"
 
+#include <bit>
+
 #include <algorithm>
 
 #include "compile/generate_emitters.h"
 #include "compile/pack.h"
 #include "core/random.h"
+#include "gpu/framebuffer.h"
 
 namespace shoal {
 
 using gpu::Program;
+using gpu::Traffic;
 
+constexpr size_t mostDeathRuns =
+    6;  // two textures of each, beside those of the group, of the 16 that any device has
 constexpr int64_t mostScheduled = 1 << 30;  // newborns of a step: none beyond finds a place
 
 static void setPoint(const Program& program, const char* name, const glm::dvec3& point) {
@@ -18,12 +24,46 @@ static void setPoint(const Program& program, const char* name, const glm::dvec3&
     program.set(name, std::span<const glm::vec4>(parts));
 }
 
-BirthPasses::BirthPasses(const Plan& plan, size_t apart) : plan_(&plan), groups_(plan.groups.size()) {
-    for (size_t g = 0; g < plan.groups.size(); ++g) {
-        const GroupPlan& group = plan.groups[g];
+static int roundedUp(int64_t count, int64_t unit) {
+    return int((count + unit - 1) / unit * unit);
+}
+
+// The levels of a tree over so many places: where in its array, and how many fours of nodes. Every other
+// level lies in the same array, from multiples of `apart` on.
+static std::vector<glm::ivec4> treeOver(int places, int apart) {
+    std::vector<glm::ivec4> out;
+    int firsts[2] = {0, 0};
+    for (int nodes = (places + 31) / 32;; nodes = (nodes + 31) / 32) {
+        int& first = firsts[out.size() % 2];
+        const int fours = roundedUp((nodes + 3) / 4, 64);  // whole workgroups
+        out.emplace_back(first, fours, 0, 0);
+        first = roundedUp(first + fours, apart);
+        if (nodes <= 32) return out;
+    }
+}
+
+BirthPasses::BirthPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form,
+                         std::vector<glm::ivec4> parts)
+    : plan_(&plan),
+      groups_(makeGroups(parts, form)),
+      table_(context.shaders() + "/births/arrays.txt", form),
+      arrays_(context, table_, sizes(context.info(), form), {}, "births"),
+      tables_(&tables) {
+    makeOrder();
+    makePrograms(context);
+}
+
+std::vector<std::unique_ptr<BirthPasses::Living>> BirthPasses::makeGroups(
+    const std::vector<glm::ivec4>& parts, Form form) const {
+    // ranges of arrays begin with a row of texels, or where a storage block may be bound on any device
+    const int apart = form == Form::textures ? stateWidth : 64;
+    std::vector<std::unique_ptr<Living>> out(plan_->groups.size());
+    int words = 0, deaths = 0, partCount = 0;
+    for (size_t g = 0; g < plan_->groups.size(); ++g) {
+        const GroupPlan& group = plan_->groups[g];
         if (!group.life) continue;
-        groups_[g] = std::make_unique<Living>();
-        Living& living = *groups_[g];
+        out[g] = std::make_unique<Living>();
+        Living& living = *out[g];
         living.plan = &group;
         living.group = g;
         living.life = group.life->cycle;
@@ -36,10 +76,47 @@ BirthPasses::BirthPasses(const Plan& plan, size_t apart) : plan_(&plan), groups_
             throw Error(living.life.location,
                         concat("\"", group.name, "\" is born from the deaths of ", living.deathRuns.size(),
                                " groups; at most ", mostDeathRuns, " are possible"));
-        living.diedAt = diedWords_;
-        if (group.life->feeds) diedWords_ += (size_t(group.count) + apart - 1) / apart * apart;
+        living.tree = treeOver(group.count, apart);
+        living.parts = parts[g];
+        living.parts.x = partCount;
+        partCount += living.parts.y;
+        living.firstWord = words;
+        words += roundedUp(living.words(), apart);
+        living.firstDeath = deaths;
+        if (group.life->feeds) deaths += roundedUp(group.count, apart);
     }
-    makeOrder();
+    return out;
+}
+
+gpu::ArraySizes BirthPasses::sizes(const gpu::ContextInfo& info, Form form) const {
+    size_t words = 1, nodes = 1, places = 1, deaths = 1, parts = 1;
+    const size_t block = size_t(info.maxStorageBlockBytes) / sizeof(uint32_t);
+    for (const auto& living : groups_) {
+        if (!living) continue;
+        const auto need = [&](size_t wanted, size_t most, const char* what) {
+            if (form == Form::buffers && wanted > most)
+                throw Error(living->life.location,
+                            concat("a capacity of ", living->count(), " for \"", living->plan->name,
+                                   "\" is more than this context holds ", what, " of: at most ", most));
+        };
+        words = size_t(living->firstWord) + size_t(living->words());
+        need(words * 32, block * 32, "bits");
+        for (const glm::ivec4& level : living->tree)
+            nodes = std::max(nodes, size_t(level.x) + size_t(level.y));
+        if (living->booked()) places = std::max(places, size_t(living->count()));
+        need(places, size_t(info.maxBufferTexels), "a list");
+        if (living->plan->life->feeds) deaths = size_t(living->firstDeath) + size_t(living->count());
+        need(deaths, std::min(block, size_t(info.maxBufferTexels)), "a list of deaths");
+        parts = size_t(living->parts.x) + size_t(living->parts.y);
+    }
+    return {{{"word", words},
+             {"node", nodes},
+             {"place", places},
+             {"death", deaths},
+             {"group", plan_->groups.size()},
+             {"part", parts}},
+            0,
+            std::countr_zero(unsigned(stateWidth))};
 }
 
 // Orders the groups that emit: emitters from a group's deaths read the dead in their places, so they come
@@ -60,14 +137,26 @@ void BirthPasses::makeOrder() {
         visit(visit, g);
 }
 
-const Program& BirthPasses::makeSpawn(gpu::Context& context, const Living& living,
-                                      std::optional<int> targets) {
-    KernelOptions kernel;
-    kernel.work = KernelOptions::Work::births;
-    kernel.targets = targets;
-    kernel.software = context.info().software;
-    gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
-    return programs_.get(context, program);
+void BirthPasses::makePrograms(gpu::Context& context) {
+    const bool textures = table_.form() == Form::textures;
+    sums_ = Program(context, arrays_.passOptions("births/sums", "sums of places"));
+    control_ = Program(context, arrays_.passOptions("births/control", "control of births"));
+    list_ = Program(context, arrays_.passOptions("births/list", "list of deaths"));
+    for (const auto& living : groups_) {
+        if (!living) continue;
+        gpu::ProgramOptions bits = arrays_.passOptions("births/bits", "bits of places");
+        for (const std::string& define : living->plan->layout().defines(textures))
+            if (textures) bits.defines.push_back(define);
+        living->bits = &programs_.get(context, bits);
+        if (!living->emits()) continue;
+        KernelOptions kernel;
+        kernel.work = KernelOptions::Work::births;
+        if (textures) kernel.targets = context.info().maxColorAttachments;
+        kernel.software = context.info().software;
+        gpu::ProgramOptions spawn = kernelProgram(*plan_, living->group, kernel);
+        spawn.arrays = &table_;
+        living->spawn = &programs_.get(context, spawn);
+    }
 }
 
 void BirthPasses::setAge(const Program& step, const Living& living) const {
@@ -89,11 +178,98 @@ int BirthPasses::markOf(const Living& living) const {
     return int(std::min(used, uint64_t(living.count())));
 }
 
-std::vector<glm::ivec4> BirthPasses::deathsOf(const Living& living) const {
-    std::vector<glm::ivec4> out;
+void BirthPasses::setTree(const Program& program, const Living& living) const {
+    program.set("tree", std::span<const glm::ivec4>(living.tree));
+    program.set("levels", living.levels());
+}
+
+// Both arrays of sums are written in turn.
+void BirthPasses::sum(const Living& living, bool ofDeaths, int firstPlace, int count) {
+    arrays_.with(*living.bits);
+    bindPlaces(*living.bits, living);
+    living.bits->set("ofDeaths", int(ofDeaths));
+    living.bits->set("placeCount", living.count());
+    living.bits->set("firstPlace", firstPlace);
+    living.bits->set("askedFor", count);
+    arrays_.run(*living.bits, 0, living.tree[0].y);
+    for (size_t level = 1; level < living.tree.size(); ++level) {
+        const glm::ivec4 below = living.tree[level - 1];
+        arrays_.swap("sums", "sumsBelow");
+        arrays_.with(sums_).set("below", glm::ivec4(below.x, below.y, int(level == 1), 0));
+        arrays_.run(sums_, living.tree[level].x, living.tree[level].y);
+    }
+}
+
+void BirthPasses::renew(const Living& living, Renewal renewal, int summed, int scheduled) {
+    arrays_.with(control_);
+    setTree(control_, living);
+    control_.set("group", int(living.group));
+    control_.set("renewal", int(renewal));
+    control_.set("summedPlaces", summed);
+    control_.set("scheduled", scheduled);
+    std::vector<glm::ivec4> deaths;
     for (const DeathRun& run : living.deathRuns)
-        out.emplace_back(int(control::of(run.source)), run.each, 0, 0);
-    return out;
+        deaths.emplace_back(int(run.source), run.each, 0, 0);
+    control_.set("deathRunCount", int(deaths.size()));
+    control_.set("deathRuns", std::span<const glm::ivec4>(deaths));
+    control_.set("parts", living.parts);
+    arrays_.run(control_, 0, int(groups_.size()));
+    arrays_.swap("control", "nextControl");
+}
+
+void BirthPasses::listDeaths(const Living& living) {
+    sum(living, true, 0, living.count());
+    renew(living, Renewal::deaths, living.count());
+    arrays_.with(list_).set("group", int(living.group));
+    setTree(list_, living);
+    arrays_.run(list_, living.firstDeath, living.count());
+}
+
+void BirthPasses::begin() {
+    if (table_.form() == Form::textures) gpu::drawPlainly();
+    arrays_.settle();
+}
+
+void BirthPasses::step(const Frame& frame, gpu::PassTimers& timers) {
+    if (order_.empty()) return;
+    const auto timer = timers.time("births");
+    begin();
+    for (const auto& living : groups_)
+        if (living && living->plan->life->feeds) listDeaths(*living);
+    for (const size_t g : order_)
+        bear(*groups_[g], frame);
+    arrays_.settle();
+}
+
+int BirthPasses::mostBorn(const Living& living, const Newborns& newborns) const {
+    if (!living.onGpu()) return newborns.born;
+    int64_t most = newborns.scheduled;
+    for (const DeathRun& run : living.deathRuns)
+        most += int64_t(run.each) * plan_->groups[run.source].count;
+    return int(std::min<int64_t>(most, living.count()));
+}
+
+void BirthPasses::bear(Living& living, const Frame& frame) {
+    const Newborns newborns = schedule(living, frame);
+    const int most = mostBorn(living, newborns);
+    if (living.onGpu()) {
+        sum(living, false, 0, living.count());
+        renew(living, Renewal::births, living.count(), newborns.scheduled);
+    }
+    if (most == 0) return;
+    if (!living.listed() && table_.form() == Form::textures) {  // in buffers the newborn notice
+        sum(living, false, newborns.firstPlace, most);
+        renew(living, Renewal::cuts, most);
+    }
+    if (!newborns.places.empty())
+        arrays_.write("places", Traffic::Kind::births, newborns.places.data(), newborns.places.size());
+    arrays_.settle();
+    arrays_.with(*living.spawn);
+    setTree(*living.spawn, living);
+    setNumbers(living, newborns, frame);
+    tables_->bind(*living.spawn, *plan_);
+    spawn(*living.spawn, living, most);
+    arrays_.settle();
 }
 
 BirthPasses::Newborns BirthPasses::schedule(Living& living, const Frame& frame) {
@@ -143,13 +319,13 @@ void BirthPasses::takePlaces(Living& living, double end, Newborns& newborns) {
     living.born += newborns.places.size();
 }
 
-void BirthPasses::setNumbers(const Program& spawn, const Living& living, const Newborns& newborns,
-                             const Frame& frame) const {
+void BirthPasses::setNumbers(const Living& living, const Newborns& newborns, const Frame& frame) const {
+    const Program& spawn = *living.spawn;
     setStepUniforms(spawn, *plan_, *living.plan, frame);
     const std::vector<glm::vec4> parameters =
         emitterParameters(living.life, living.middles, frame.time, frame.parameters.frameTime);
     spawn.set("emitterParameters", std::span<const glm::vec4>(parameters));
-    spawn.set("controlBase", int(control::of(living.group)));
+    spawn.set("group", int(living.group));
     spawn.set("placeCount", living.count());
     spawn.set("groupSeed", int(living.plan->life->seed));
     spawn.set("lifeSpan", glm::vec2(living.life.life));
@@ -157,7 +333,7 @@ void BirthPasses::setNumbers(const Program& spawn, const Living& living, const N
     spawn.set("newbornSpin", glm::vec3(living.life.spin));
     spawn.set("newbornPhase", float(living.plan->phaseSpread));
     spawn.set("givenBorn", newborns.born);
-    if (!living.listed()) spawn.set("firstPlace", newborns.firstPlace);
+    spawn.set("firstPlace", newborns.firstPlace);
 
     const size_t most = size_t(std::max(1, mostRuns(living.life)));
     std::vector<glm::ivec4> numbers(most);
@@ -176,20 +352,21 @@ void BirthPasses::setNumbers(const Program& spawn, const Living& living, const N
     if (living.deathRuns.empty()) return;
     std::vector<glm::ivec4> deaths;
     for (const DeathRun& run : living.deathRuns)
-        deaths.emplace_back(run.emitter, run.each, int(groups_[run.source]->diedAt), 0);
+        deaths.emplace_back(run.emitter, run.each, groups_[run.source]->firstDeath, 0);
     spawn.set("deathRuns", std::span<const glm::ivec4>(deaths));
 }
 
-std::vector<uint32_t> BirthPasses::begin(Living& living, const GroupState& state, double time) {
+void BirthPasses::write(size_t group, const GroupState& state, double time) {
+    Living& living = *groups_[group];
     // the whole capacity: the other side of the state is what it was before
     const auto all = uint32_t(living.count());
-    std::vector<uint32_t> words(control::words);
+    uint32_t words[control::words] = {};
     words[control::live] = uint32_t(std::count_if(state.lives.begin(), state.lives.end(),
                                                   [](const glm::vec2& life) { return life.y > 0; }));
     words[control::mark] = all;
     words[control::lost] = uint32_t(state.totals[1]);
     words[control::bornEver] = uint32_t(state.totals[0]);
-    words[control::birthGroups + 1] = words[control::birthGroups + 2] = 1;
+    arrays_.writeElement("control", Traffic::Kind::state, group, words);
     living.markBefore = int(all);
     living.clocks = state.clocks;
     living.clocks.resize(living.life.emitters.size());
@@ -199,35 +376,41 @@ std::vector<uint32_t> BirthPasses::begin(Living& living, const GroupState& state
         living.book = Places(living.allocator(), size_t(living.count()));
         living.book.restore(state.ends, state.freed, time);
     }
-    return words;
+    writePlaces(living, state);
 }
 
-uint64_t BirthPasses::bornOf(const Living& living, const uint32_t* words) {
-    return living.allocator() == Allocator::gpu ? words[control::bornEver] : living.born;
+LifeCounts BirthPasses::countsOf(const Living& living) const {
+    uint32_t words[control::words];
+    arrays_.readElement("control", Traffic::Kind::control, living.group, words);
+    LifeCounts out;
+    out.capacity = living.count();
+    out.live = int(words[control::live]);
+    out.mark = int(words[control::mark]);
+    const bool onGpu = living.allocator() == Allocator::gpu;
+    out.born = onGpu ? words[control::bornEver] : living.born;
+    // the ring counts the lives that it cuts short on the GPU, and births beyond its capacity here
+    out.lost = (onGpu ? 0 : living.lost) + (onGpu || !living.listed() ? words[control::lost] : 0);
+    return out;
 }
 
-// The ring counts the lives that it cuts short on the GPU, and births beyond its capacity here.
-uint64_t BirthPasses::lostOf(const Living& living, const uint32_t* words) {
-    if (living.allocator() == Allocator::gpu) return words[control::lost];
-    return living.listed() ? living.lost : living.lost + words[control::lost];
-}
-
-void BirthPasses::readBooks(const Living& living, const uint32_t* words, GroupState& state) const {
+void BirthPasses::read(size_t group, GroupState& state) const {
+    const Living& living = *groups_[group];
+    const LifeCounts counts = countsOf(living);
     state.clocks = living.clocks;
-    state.totals = {bornOf(living, words), lostOf(living, words)};
+    state.totals = {counts.born, counts.lost};
     if (!living.booked()) return;
     state.ends = living.book.ends();
     state.freed = living.book.stack();
 }
 
-LifeCounts BirthPasses::countsOf(const Living& living, const uint32_t* words) const {
-    LifeCounts out;
-    out.capacity = living.count();
-    out.live = int(words[control::live]);
-    out.mark = int(words[control::mark]);
-    out.born = bornOf(living, words);
-    out.lost = lostOf(living, words);
-    return out;
+LifeCounts BirthPasses::counts(size_t group) {
+    const Living& living = *groups_[group];
+    if (!living.onGpu()) {
+        begin();
+        sum(living, false, 0, living.count());
+        renew(living, Renewal::counts, living.count());
+    }
+    return countsOf(living);
 }
 
 bool BirthPasses::change(size_t group, const Lifecycle& life) {

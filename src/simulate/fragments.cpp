@@ -69,7 +69,7 @@ Fragments::Fragments(gpu::Context& context, const Plan& plan, const Tables& tabl
         contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_);
     }
     if (plan.school.any()) school_ = std::make_unique<TextureSchool>(context, plan, tables);
-    if (plan.hasLife()) births_ = std::make_unique<TextureBirths>(context, plan, tables, targets);
+    if (plan.hasLife()) births_ = std::make_unique<TextureBirths>(context, plan, tables, state);
 }
 
 void Fragments::draw(const Program& program, size_t group, std::span<const LayerDraw> draws, int molecules,
@@ -114,7 +114,7 @@ void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
     for (int i = 0; i < pieces_; ++i) {
         const Frame piece = pieceOf(frame, i, pieces_);
         run(piece, timers);
-        if (births_) births_->step(piece, state, timers);
+        if (births_) births_->step(piece, timers);
         if (contact_) contact_->step(piece, timers);
     }
     computeNormals(timers);

@@ -10,13 +10,13 @@
 #include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/births.h"
 #include "simulate/contact/contact.h"
 #include "simulate/execution_path.h"
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
 #include "simulate/school.h"
 #include "simulate/state_view.h"
-#include "simulate/texture_births.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -43,7 +43,7 @@ class Fragments : public ExecutionPath {
         return school_ && school_->change(group, school);
     }
     bool changeLife(size_t group, const Lifecycle& life) override;
-    LifeCounts lifeCounts(size_t group) const override { return births_->counts(group, state[group]); }
+    LifeCounts lifeCounts(size_t group) const override { return births_->counts(group); }
     std::optional<int> framesSinceAlarm(bool) override {
         return query_ ? query_->framesSince() : std::nullopt;
     }

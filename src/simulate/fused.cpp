@@ -87,9 +87,7 @@ Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, cons
                                ? &kernels_.back()->also(KernelOptions::Work::normals)
                                : nullptr);
     }
-    if (plan.hasLife())
-        births_ = std::make_unique<Births>(context, plan, tables, state, together,
-                                           atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)));
+    if (plan.hasLife()) births_ = std::make_unique<BufferBirths>(context, plan, tables, state, together);
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
         contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_, options.asOnGpu);
@@ -114,10 +112,7 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
     if (buffers.hasNormals() && (options.normals || !steps))
         store(program, "NewNormals", buffers.normals(part));
     const int together = workgroupMolecules(group, options);
-    if (births_ && births_->has(index) && steps) {
-        births_->bindStep(program, index, part);
-        return births_->dispatchStep(program, index, part);
-    }
+    if (births_ && births_->has(index) && steps) return births_->dispatchStep(program, index, part);
     program.dispatch((part.count + together - 1) / together);
 }
 
@@ -129,7 +124,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         const Frame piece = pieceOf(frame, i, pieces_);
         if (contact_) contact_->begin(piece);
         run(piece, timers);
-        if (births_) births_->step(piece, state, timers);
+        if (births_) births_->step(piece, timers);
         if (contact_) contact_->step(piece, timers);
     }
     if (alarm_) alarm_->endFrame(frame.number);

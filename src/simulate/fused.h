@@ -72,7 +72,7 @@ class Fused : public ExecutionPath {
     std::optional<RunawayWord> alarm_;                   // where watched
     std::unique_ptr<ContactState> contactState_;
     std::unique_ptr<Contact> contact_;      // null: there is none
-    std::unique_ptr<Births> births_;        // null: none is born and none dies
+    std::unique_ptr<BufferBirths> births_;  // null: none is born and none dies
     std::unique_ptr<BufferSchool> school_;  // null: none steers
     double steeringEnd_ = 0;                // s, of the frame
 };

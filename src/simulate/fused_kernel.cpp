@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
@@ -29,7 +30,6 @@ void defineLife(const LifePlan& life, bool births, std::vector<std::string>& out
     define(cycle.within.has_value(), "CONFINED");
     define(cycle.afterContact.has_value(), "TOUCH_COUNTS");
     if (!births) return;
-    define(cycle.allocator != Allocator::ring, "LISTED");
     out.push_back(concat("RUNS ", std::max(1, mostRuns(cycle))));
     if (const int runs = deathRunsOf(cycle)) out.push_back(concat("DEATH_RUNS ", runs));
 }
@@ -104,6 +104,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
             out.push_back(one);
     define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
+    if (births && options.targets)
+        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", std::countr_zero(unsigned(stateWidth)))});
     if (needs.life) defineLife(*group.life, births, out);
     return out;
 }

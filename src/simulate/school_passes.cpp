@@ -64,16 +64,13 @@ SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables
 
 gpu::ProgramOptions SchoolPasses::optionsOf(const std::string& file, const std::string& label,
                                             const GroupPlan* group) const {
-    gpu::ProgramOptions out;
-    out.label = label;
-    out.arrays = &table_;
-    if (group) out.defines = group->layout().defines(hasTextures());
-    out.defines.push_back(concat("BODY_ELEMENTS ", bodyElements));
-    out.defines.push_back(concat("STEERING_ELEMENTS ", steeringElements));
-    (hasTextures() ? out.fragment : out.compute) = file + ".pass.glsl";
-    if (!hasTextures()) return out;
-    out.vertex = "passes/fullscreen.vert";
-    out.defines.insert(out.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_)});
+    gpu::ProgramOptions out = arrays_.passOptions(file, label);
+    const auto define = [&](const std::string& text) { out.defines.push_back(text); };
+    for (const std::string& layout :
+         group ? group->layout().defines(hasTextures()) : std::vector<std::string>())
+        define(layout);
+    define(concat("BODY_ELEMENTS ", bodyElements));
+    define(concat("STEERING_ELEMENTS ", steeringElements));
     return out;
 }
 

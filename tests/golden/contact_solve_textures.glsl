@@ -9,9 +9,9 @@ ivec2 texelOf(int i)
 {
     return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS);
 }
-int ownNumber()
+#define ownNumber() numberOf(ivec2(gl_FragCoord.xy))
+int numberOf(ivec2 texel)
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
     return (texel.y << ROW_BITS) + texel.x;
 }
 uniform sampler2DArray impulses;

@@ -61,14 +61,19 @@ std::string complaint(const std::string& file, const gpu::ShaderSource& source) 
 }
 
 void Validator::add(const std::string& file, const Defines& defines, const char* header) {
+    add(file, defines, header, resolve(file, defines, generated, header));
+}
+
+gpu::ShaderSource Validator::resolve(const std::string& file, const Defines& defines,
+                                     const std::map<std::string, std::string>& texts,
+                                     const char* header) const {
     using Form = gpu::ArrayTable::Form;
     const std::string root = std::string(SHOAL_SOURCE_DIR) + "/shaders";
     std::optional<gpu::ArrayTable> table;
     const bool compute = std::string_view(header) == gpu::header430();
     if (!arrays.empty())
         table.emplace(concat(root, "/", arrays, "/arrays.txt"), compute ? Form::buffers : Form::textures);
-    add(file, defines, header,
-        gpu::resolveShader(root, file, defines, generated, header, table ? &*table : nullptr));
+    return gpu::resolveShader(root, file, defines, texts, header, table ? &*table : nullptr);
 }
 
 void Validator::addKernel(const Plan& plan, const KernelOptions& options) {
@@ -77,8 +82,7 @@ void Validator::addKernel(const Plan& plan, const KernelOptions& options) {
         if (file.empty()) continue;
         for (const char* header :
              options.targets ? std::vector{gpu::header330(), header300es} : std::vector{gpu::header430()}) {
-            gpu::ShaderSource source = gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file,
-                                                          program.defines, program.generated, header);
+            gpu::ShaderSource source = resolve(file, program.defines, program.generated, header);
             program.rewrite(source);
             add(file, program.defines, header, std::move(source));
         }

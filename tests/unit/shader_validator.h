@@ -46,6 +46,8 @@ class Validator {
         std::string path, what;
         gpu::ShaderSource source;
     };
+    gpu::ShaderSource resolve(const std::string& file, const Defines& defines,
+                              const std::map<std::string, std::string>& texts, const char* header) const;
     void add(const std::string& file, const Defines& defines, const char* header, gpu::ShaderSource source);
 
     Scratch scratch_;

@@ -127,11 +127,8 @@ void ContactData::giveTables() {
 }
 
 gpu::ProgramOptions ContactData::options(const std::string& file, const std::string& label) const {
-    gpu::ProgramOptions out;
-    (textures ? out.fragment : out.compute) = concat(file, ".pass.glsl");
-    out.label = concat("contact ", label);
-    out.arrays = &table;
-    out.defines = {concat("MOST_COLLIDERS ", ContactPlan::mostColliders)};
+    gpu::ProgramOptions out = arrays.passOptions(file, concat("contact ", label));
+    out.defines.push_back(concat("MOST_COLLIDERS ", ContactPlan::mostColliders));
     const auto define = [&](bool need, const std::string& name) {
         if (need) out.defines.push_back(name);
     };
@@ -142,9 +139,6 @@ gpu::ProgramOptions ContactData::options(const std::string& file, const std::str
     define(counted, "COUNTED");
     define(counted, concat("CELL_TILE ", cellTile));
     define(counted, concat("LINE_WORDS ", lineWords));
-    define(textures, "TEXTURES");
-    define(textures, concat("ROW_BITS ", contact->rowBits()));
-    if (textures) out.vertex = "passes/fullscreen.vert";
     return out;
 }
 

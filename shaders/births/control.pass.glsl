@@ -1,0 +1,106 @@
+// Renews the words of control of one group from the sums over its places: how many molecules died there, how many newborns
+// took a place that was not free, or how many of the births that are asked for find a place.
+#include "births/control.glsl"
+#include "births/tree.glsl"
+#include "state/lanes.glsl"
+#pragma reads control
+#pragma writes nextControl reaches
+
+uniform int group;
+uniform int renewal;        // 0 deaths, 1 lives cut short, 2 births; 3 births that are only counted
+uniform int summedPlaces;   // over which the sums go
+uniform int scheduled;      // births that the CPU knows of
+uniform int deathRunCount;
+uniform ivec4 deathRuns[mostDeathRuns];  // x the group that dies, y births for each
+uniform ivec4 parts;        // of the group's state: x the first, y how many, z places of each, w molecules of a workgroup
+
+uvec4 words[8];
+
+uint wordOf(int which)
+{
+    return words[which / 4][which % 4];
+}
+
+void put(int which, uint value)
+{
+    words[which / 4][which % 4] = value;
+}
+
+// A counter stays at the largest number.
+void count(int which, uint more)
+{
+    put(which, wordOf(which) + min(more, 0xffffffffu - wordOf(which)));
+}
+
+// Returns one past the last place that is taken.
+int findMark()
+{
+    int node = 0;
+    for (int level = levels; level >= 0; --level) {
+        int places = 32 << (5 * level);  // of a node
+        int last = 32 * node + 31;
+        for (; last >= 32 * node; --last) {
+            int here = clamp(summedPlaces - last * places, 0, places);
+            if (here > 0 && countsIn(level, last / 4)[last % 4] < here) break;
+        }
+        if (last < 32 * node) return 0;
+        node = last;
+    }
+    int mark = min(summedPlaces - 32 * node, 32);
+    uint word = fourAt(0, node / 4)[node % 4];
+    while (((word >> uint(mark - 1)) & 1u) == 1u) --mark;
+    return 32 * node + mark;
+}
+
+void putBirths(bool allocates)
+{
+    uint requested = uint(scheduled);
+    for (int d = 0; d < deathRunCount; ++d) {
+        put(controlFirsts + d, requested);
+        requested += controlAt(deathRuns[d].x, controlDeaths / 4)[controlDeaths % 4] * uint(deathRuns[d].y);
+    }
+    uint free = uint(countInAll());
+    uint born = allocates ? min(requested, free) : 0u;
+    int mark = findMark();
+    if (born > 0u) mark = max(mark, placeOfRank(int(born) - 1) + 1);
+    put(controlLive, uint(summedPlaces) - free + born);
+    put(controlMarkBefore, wordOf(controlMark));
+    put(controlMark, uint(mark));
+    if (!allocates) return;
+    put(controlRequested, requested);
+    put(controlBorn, born);
+    count(controlLost, requested - born);
+    count(controlBornEver, born);
+    uint groups = (born + 63u) / 64u;
+    uint rows = max((groups + mostGroups - 1u) / mostGroups, 1u);
+    put(controlBirthGroups, (groups + rows - 1u) / rows);
+    put(controlBirthGroups + 1, rows);
+    put(controlBirthGroups + 2, 1u);
+}
+
+// The next step goes one past the last place that is taken, or was one step before, on the other side of the state.
+void putReach()
+{
+    int reach = int(max(wordOf(controlMark), wordOf(controlMarkBefore)));
+    for (int p = 0; p < parts.y; ++p) {
+        int here = clamp(reach - p * parts.z, 0, parts.z);
+        putReaches(parts.x + p, uvec4(uint((here + parts.w - 1) / parts.w), 1u, 1u, 0u));
+    }
+}
+
+void main()
+{
+    int own = ownLane();
+    for (int k = 0; k < 8; ++k) words[k] = controlAt(own, k);
+    if (own == group) {
+        if (renewal == 0) {
+            put(controlDeaths, uint(countInAll()));
+        } else if (renewal == 1) {
+            count(controlLost, uint(summedPlaces - countInAll()));
+        } else {
+            putBirths(renewal == 2);
+            putReach();
+        }
+    }
+    putAllNextControl(own, words);
+}
