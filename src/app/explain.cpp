@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/explain_cost.h"
+#include "app/explain_passes.h"
 #include "app/measure.h"
 #include "core/json.h"
 #include "run/data_paths.h"
@@ -9,8 +10,8 @@
 
 namespace shoal::app {
 
-// Explains for the default limits of a context (PathLimits), without asking a driver. Only --error and
-// --cost make a context, to measure on it.
+// Explains for the default limits of a context (PathLimits), without asking a driver. Only --error, --cost
+// and --passes make a context, to measure on it.
 int explainCommand(const Options& options) {
     Loaded loaded = load(options);
     std::optional<measure::Calibration> found;
@@ -20,6 +21,8 @@ int explainCommand(const Options& options) {
     }
     std::optional<SceneCost> cost;
     if (options.cost) cost = sceneCost(options, loaded);
+    std::optional<FramePasses> passes;
+    if (options.passes) passes = framePasses(options, loaded);
     const PathLimits limits;
     const PathChoice choice = choosePath(loaded.plan, options.path, limits, options.lanes);
     if (options.shader && choice.path == Path::pingPong)
@@ -29,6 +32,7 @@ int explainCommand(const Options& options) {
         JsonValue report = explainJson(loaded.plan, choice, options.inPlace);
         if (found) report.add("calibration", asJson(*found));
         if (cost) report.add("cost", asJson(*cost));
+        if (passes) report.add("framePasses", asJson(*passes));
         std::cout << writeJson(report);
         return 0;
     }
@@ -36,6 +40,7 @@ int explainCommand(const Options& options) {
         std::cout << explain(loaded.plan, choice, options.inPlace);
         if (found) std::cout << "\n" << asText(*found);
         if (cost) std::cout << "\n" << asText(*cost);
+        if (passes) std::cout << "\n" << asText(*passes);
         return 0;
     }
     std::string shaders =

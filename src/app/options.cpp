@@ -327,7 +327,10 @@ static void declare(CLI::App& app, Options& options) {
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
     explain->add_flag("--cost", options.cost,
                       "What each kernel moves and computes, and which of these bounds it on this device");
+    explain->add_flag("--passes", options.passes,
+                      "What one frame asks of this device, pass by pass, and what each reads and writes");
     excludes(*explain, "--cost", {"--shader"});
+    excludes(*explain, "--passes", {"--shader"});
     addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options);
     addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options);
     addExport(*add("export", "Write a scene for game engines and viewers", scenes), options);

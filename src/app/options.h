@@ -66,6 +66,7 @@ struct Options : RunRequest {
     bool timings = false;  // time per pass
     bool shader = false;   // explain: print the kernels
     bool cost = false;     // explain: what they cost on this device
+    bool passes = false;   // explain: what a frame asks of it
     std::optional<int> frames;
     int width = 1280, height = 720;
     std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for

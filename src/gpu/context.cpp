@@ -261,7 +261,7 @@ Context::Context(const ContextOptions& options) {
 }
 
 void drawVertices(int count, GLenum primitive) {
-    checkGiven();
+    beginPass();
     glBindVertexArray(currentState->noAttributes);
     glDrawArrays(primitive, 0, count);
 }

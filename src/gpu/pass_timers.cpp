@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/contract.h"
+#include "gpu/frame_record.h"
 #include "gpu/program.h"
 
 namespace shoal::gpu {
@@ -20,6 +21,7 @@ PassTimers::Mode PassTimers::suitedTo(const ContextInfo& info) {
 
 PassTimers::Scope::Scope(PassTimers& timers, const char* name)
     : timers_(timers), group_(*timers.info_, name) {
+    FrameRecord::enter(name);
     if (!timers.inFrame_) return;
     EXPECTS(!timers.inPass_ && "passes do not nest");
     timers.inPass_ = true;
@@ -39,6 +41,7 @@ PassTimers::Scope::Scope(PassTimers& timers, const char* name)
 }
 
 PassTimers::Scope::~Scope() {
+    FrameRecord::enter("");
     if (!open_) return;
     timers_.inPass_ = false;
     if (call_ < 0) return;

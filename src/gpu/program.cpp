@@ -9,6 +9,7 @@
 #include "core/contract.h"
 #include "core/error.h"
 #include "core/printable.h"
+#include "gpu/frame_record.h"
 #include "gpu/program_cache.h"
 #include "gpu/shader_source.h"
 
@@ -143,10 +144,10 @@ void beginFirstUse(const std::string& label) {
 
 }  // namespace
 
-Program::Program(Context& context, const ProgramOptions& options)
-    : label_(!options.label.empty()     ? options.label
-             : !options.compute.empty() ? options.compute
-                                        : options.fragment) {
+Program::Program(Context& context, const ProgramOptions& options) {
+    slots_->label = !options.label.empty()     ? options.label
+                    : !options.compute.empty() ? options.compute
+                                               : options.fragment;
     const ContextInfo& info = context.info();
     if (!options.compute.empty() && !info.computeShaders)
         throw Error(
@@ -160,9 +161,9 @@ Program::Program(Context& context, const ProgramOptions& options)
         for (const std::string& file : stage.source.files)
             if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
-    beginFirstUse(label_);
+    beginFirstUse(slots_->label);
     if (!context.cache().active()) {
-        compileAndLink(id(), stages, options, label_);
+        compileAndLink(id(), stages, options, slots_->label);
     } else {
         context.checkErrors("before a program is made");
         std::vector<std::string_view> texts;
@@ -171,7 +172,7 @@ Program::Program(Context& context, const ProgramOptions& options)
             texts.emplace_back(stage.source.text);
         const std::string key = programKey(info, texts);
         if (!context.cache().load(key, id())) {
-            compileAndLink(id(), stages, options, label_);
+            compileAndLink(id(), stages, options, slots_->label);
             context.cache().store(key, id());
         }
     }
@@ -180,11 +181,13 @@ Program::Program(Context& context, const ProgramOptions& options)
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
             declared_.merge(declared(*text, "uniform"));
         declaredBlocks_.merge(declared(stage.source.text, "buffer"));
-        written_.insert(written_.end(), stage.source.written.begin(), stage.source.written.end());
-        updated_.insert(updated_.end(), stage.source.updated.begin(), stage.source.updated.end());
+        slots_->written.insert(slots_->written.end(), stage.source.written.begin(),
+                               stage.source.written.end());
+        slots_->updated.insert(slots_->updated.end(), stage.source.updated.begin(),
+                               stage.source.updated.end());
     }
     findSlots(info);
-    labelObject(context, GL_PROGRAM, id(), label_.c_str());
+    labelObject(context, GL_PROGRAM, id(), slots_->label.c_str());
 }
 
 void Program::findSlots(const ContextInfo& info) {
@@ -205,7 +208,7 @@ void Program::findSlots(const ContextInfo& info) {
     constexpr size_t mostBlocks = 8;  // that OpenGL 4.3 promises
     EXPECTS(slots_->blocks.size() <= mostBlocks);
     if (slots_->samplers.size() <= size_t(info.maxTextureUnits)) return;
-    throw Error(concat("program \"", label_, "\" reads ", slots_->samplers.size(),
+    throw Error(concat("program \"", slots_->label, "\" reads ", slots_->samplers.size(),
                        " textures; this context has units for ", info.maxTextureUnits));
 }
 
@@ -218,14 +221,15 @@ void Program::use() const {
     slotsInUse = slots_;
     if (used_) return endFirstUse();
     used_ = true;
-    beginFirstUse(label_);
+    beginFirstUse(slots_->label);
 }
 
-void checkGiven() {
-#ifndef SHOAL_NO_CONTRACTS
+void beginPass() {
     const std::shared_ptr<void> used = slotsInUse.lock();
     if (!used) return;
     const auto& slots = *static_cast<const Program::Slots*>(used.get());
+    FrameRecord::add(slots.label, slots.samplers, slots.blocks, slots.written, slots.updated);
+#ifndef SHOAL_NO_CONTRACTS
     const auto check = [](const std::vector<std::string>& names, const std::vector<GLuint>& given,
                           const std::vector<GLuint>& at) {
         for (size_t i = 0; i < names.size(); ++i)
@@ -310,14 +314,14 @@ void Program::storage(const char* block, const Buffer& buffer, size_t offset, si
 void Program::dispatch(int groupsX, int groupsY) const {
     EXPECTS(inUse() && "use() goes before dispatch()");
     EXPECTS(groupsX >= 0 && groupsY >= 0);
-    checkGiven();
+    beginPass();
     glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY), 1);
 }
 
 void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
     EXPECTS(inUse() && "use() goes before dispatchIndirect()");
     EXPECTS(offset % 4 == 0 && offset + 3 * sizeof(uint32_t) <= groups.bytes());
-    checkGiven();
+    beginPass();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }

@@ -69,8 +69,8 @@ class Program {
     const std::vector<std::string>& samplers() const { return slots_->samplers; }
     const std::vector<std::string>& blocks() const { return slots_->blocks; }
     // The arrays that its #pragma writes and updates name, and those of them that it reads as well.
-    const std::vector<std::string>& written() const { return written_; }
-    const std::vector<std::string>& updated() const { return updated_; }
+    const std::vector<std::string>& written() const { return slots_->written; }
+    const std::vector<std::string>& updated() const { return slots_->updated; }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX, int groupsY = 1) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
@@ -79,14 +79,15 @@ class Program {
     bool declares(const char* block) const { return declaredBlocks_.contains(block); }  // a storage block
 
     GLuint id() const { return handle_.id(); }
-    const std::string& label() const { return label_; }
+    const std::string& label() const { return slots_->label; }
     explicit operator bool() const { return bool(handle_); }
 
   private:
-    friend void checkGiven();
+    friend void beginPass();
     // What its samplers and blocks were given last, each at its unit or binding.
     struct Slots {
-        std::vector<std::string> samplers, blocks;
+        std::string label;
+        std::vector<std::string> samplers, blocks, written, updated;
         std::vector<GLuint> textures, buffers;
     };
 
@@ -101,12 +102,11 @@ class Program {
     std::shared_ptr<Slots> slots_ = std::make_shared<Slots>();  // at one place when the program is moved
     std::set<std::string, std::less<>> declared_;               // uniforms
     std::set<std::string, std::less<>> declaredBlocks_;         // storage blocks
-    std::vector<std::string> written_, updated_;
-    std::string label_;
 };
 
-// A contract, for who draws: all that the program in use reads is where it was given.
-void checkGiven();
+// Goes before a draw: all that the program in use reads is where it was given (a contract), and the pass is
+// recorded (gpu/frame_record.h).
+void beginPass();
 
 // Returns the label of the program that is being made or used for the first time, when rasterisers compile
 // it, for any thread to ask; empty: there is none.

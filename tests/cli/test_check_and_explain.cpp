@@ -327,6 +327,32 @@ TEST_CASE("explain says what was left out, and why", "[cli]") {
         CHECK_THAT(fused.out, Catch::Contains(part));
 }
 
+TEST_CASE("explain names every pass of a frame, how often it runs, and what it reads and writes", "[cli]") {
+    const Outcome outcome =
+        runShoal({"explain", sourceFile("models/jar/sweets.scene.json"), "--passes", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    const std::vector<JsonValue>& rows = member(report, "framePasses").items;
+    // how often a pass runs that writes this array in this stage
+    const auto timesOf = [&](const char* stage, const char* pass, const char* array) {
+        double times = 0;
+        for (const JsonValue& row : rows) {
+            const std::vector<JsonValue>& names = member(row, "writes").items;
+            const bool writes = std::any_of(names.begin(), names.end(),
+                                            [&](const JsonValue& name) { return name.text == array; });
+            if (member(row, "stage").text == stage && member(row, "pass").text == pass && writes)
+                times += member(row, "times").number;
+        }
+        return times;
+    };
+    constexpr int steps = 8, iterations = 8, groups = 4;
+    CHECK(timesOf("fused", "fused step of cherry", "newState") == groups * steps);  // of one kernel
+    CHECK(timesOf("contact response", "contact solve", "impulses") == steps * iterations);
+    CHECK(timesOf("contact response", "contact store", "keptImpulses") == steps);
+    CHECK(timesOf("contact response", "contact store", "impulses") == 0);
+}
+
 TEST_CASE("explain takes the same overrides as run", "[cli]") {
     const JsonValue report = runShoal({"explain", squaresScene(), "--json", "--count", "2000", "--substeps",
                                        "7", "--dt", "0.02", "--solver", "euler"})

@@ -1,0 +1,39 @@
+// What the GPU is asked to do, pass by pass, on whatever path: the dispatches and draws of a frame while a
+// record of it is kept.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace shoal::gpu {
+
+struct PassRow {
+    std::string stage;  // as PassTimers names it; empty: outside of them
+    std::string pass;   // the program's label
+    int times = 0;      // dispatches and draws
+    std::vector<std::string> reads, writes;  // arrays and textures, by the names that the shader declares
+};
+
+class FrameRecord {
+  public:
+    // Begins; there is one at a time (a contract).
+    FrameRecord();
+    ~FrameRecord();
+    FrameRecord(const FrameRecord&) = delete;
+    FrameRecord& operator=(const FrameRecord&) = delete;
+
+    // In the order in which each was first asked for.
+    const std::vector<PassRow>& rows() const { return rows_; }
+
+    // For PassTimers and Program; they do nothing while nothing is recorded.
+    static void enter(const char* stage);
+    static void add(const std::string& pass, const std::vector<std::string>& samplers,
+                    const std::vector<std::string>& blocks, const std::vector<std::string>& written,
+                    const std::vector<std::string>& updated);
+
+  private:
+    std::string stage_;
+    std::vector<PassRow> rows_;
+};
+
+}  // namespace shoal::gpu
