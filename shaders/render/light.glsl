@@ -1,6 +1,6 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
-// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them, with
-// WIDE_SHADOWS beyond the molecules too; with WATER all below its surface is under water.
+// Places are relative to the eye, in the scene's directions. With WATER all below its surface is under water. Set by C++,
+// true or false: SHADOWS, which the sun casts, and WIDE_SHADOWS, beyond the molecules too.
 
 #include "render/sky.glsl"
 #include "render/tone.glsl"
@@ -27,15 +27,12 @@ struct Surface {
 #include "render/air.glsl"
 #endif
 
-#ifdef SHADOWS
 uniform sampler2DShadow shadowMap;
 uniform mat4 toShadow;      // place -> texture and depth, both in [0, 1]
 uniform vec3 shadowFilter;  // x: filter radius in texture units, y: offset along the normal, z: towards the sun, m
-#ifdef WIDE_SHADOWS
 uniform sampler2DShadow wideShadowMap;  // of what stands still, where the other map ends
 uniform mat4 toWideShadow;
 uniform vec3 wideShadowFilter;
-#endif
 
 // Share of the sun that is seen. Sixteen taps on a Vogel disc, each a bilinear comparison.
 float unshaded(sampler2DShadow map, mat4 toMap, vec3 mapFilter, vec3 place, vec3 normal)
@@ -58,19 +55,14 @@ float unshaded(sampler2DShadow map, mat4 toMap, vec3 mapFilter, vec3 place, vec3
 
 float sunVisibility(vec3 place, vec3 normal)
 {
-#ifdef WIDE_SHADOWS
-    vec2 fromMiddle = abs((toShadow * vec4(place, 1.0)).xy - 0.5);
-    if (max(fromMiddle.x, fromMiddle.y) > 0.49)
-        return unshaded(wideShadowMap, toWideShadow, wideShadowFilter, place, normal);
-#endif
+    if (!SHADOWS) return 1.0;
+    if (WIDE_SHADOWS) {
+        vec2 fromMiddle = abs((toShadow * vec4(place, 1.0)).xy - 0.5);
+        if (max(fromMiddle.x, fromMiddle.y) > 0.49)
+            return unshaded(wideShadowMap, toWideShadow, wideShadowFilter, place, normal);
+    }
     return unshaded(shadowMap, toShadow, shadowFilter, place, normal);
 }
-#else
-float sunVisibility(vec3 place, vec3 normal)
-{
-    return 1.0;
-}
-#endif
 
 // Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside,
 // less and less towards the middle. Both agree at its edge.

@@ -1,26 +1,7 @@
 // How much of the sky each place still sees past what stands near it in the picture [McGuire 2012]: samples on a spiral
-// around the pixel, turned by sixteen angles in turn, which the second pass smooths again (BLUR).
+// around the pixel, turned by sixteen angles in turn, which render/occlusion_smooth.frag smooths again.
 // Output: x what is seen of the sky, in [0, 1]; y the depth, m.
 
-#ifdef BLUR
-#include "render/occlusion.glsl"
-
-out vec4 fragment;
-
-void main()
-{
-    ivec2 texel = ivec2(gl_FragCoord.xy);
-    ivec2 last = textureSize(occlusion, 0) - 1;
-    float depth = texelFetch(occlusion, texel, 0).y;
-    vec2 sum = vec2(0.0);
-    for (int y = -2; y < 2; ++y)
-        for (int x = -2; x < 2; ++x) {
-            vec2 there = texelFetch(occlusion, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xy;
-            sum += likeness(there.y, depth) * vec2(there.x, 1.0);
-        }
-    fragment = vec4(sum.x / max(sum.y, 1e-3), depth, 0.0, 1.0);
-}
-#else
 uniform sampler2D sceneDepth;  // 1 - nearest / depth
 uniform float nearest;         // m
 uniform vec2 tangents;         // of half the field of view
@@ -82,4 +63,3 @@ void main()
     }
     fragment.x = max(1.0 - 2.0 * radius * hidden / float(samples), 0.0);
 }
-#endif

@@ -1,31 +1,13 @@
-// Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
-// haze instead; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h), and
-// IMAGES with any of them; CUT, out of the colour image by its alpha; REFRACTS, of what is blended.
+// Host models, terrain and colliders. Set by C++, true or false: PLANE, which has no end and fades into the haze instead;
+// COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h); CUT, out of the colour
+// image by its alpha; REFRACTS, of what is blended.
 
+#include "render/alpha_cut.glsl"
+#include "render/glass.glsl"
 #include "render/grain.glsl"
 #include "render/light.glsl"
-#ifdef CUT
-#include "render/alpha_cut.glsl"
-#elif defined(COLOR_IMAGE)
-uniform sampler2D image;  // rgb colour, a opacity
-#endif
-#ifdef NORMAL_IMAGE
-uniform sampler2D normalImage;
-uniform float normalScale;
-#endif
-#ifdef ROUGHNESS_IMAGE
-uniform sampler2D roughnessImage;  // g roughness, b metallic
-#endif
-#ifdef EMISSIVE_IMAGE
-uniform sampler2D emissiveImage;
-#endif
-#ifdef REFRACTS
-#include "render/glass.glsl"
-#endif
-#ifdef IMAGES
-in vec2 uv;
-#endif
 
+in vec2 uv;
 in vec3 place;
 in vec3 local;
 in vec3 normal;
@@ -38,17 +20,19 @@ uniform float metallic;
 uniform float detail;  // strength of the procedural grain, 0 for none
 uniform bool stony;    // whether the grain is stone's
 uniform mat3 meshTurn;
-#ifdef PLANE
+uniform sampler2D normalImage;
+uniform float normalScale;
+uniform sampler2D roughnessImage;  // g roughness, b metallic
+uniform sampler2D emissiveImage;
+// Of a plane.
 uniform float planeRadius;  // m, where the plane has faded away
 uniform vec3 planeAlong;    // two unit directions within the plane
 uniform vec3 planeAcross;
 uniform vec2 planeOffset;   // of the foot of the eye on the grid, m
 uniform bool grid;          // lines every metre
-#endif
 
 out vec4 fragment;
 
-#ifdef NORMAL_IMAGE
 // The normal that an image says, in the frame of its coordinates, which follows from how they change along the
 // surface [Schüler 2006].
 vec3 mapped(vec3 n, vec3 p, vec2 at)
@@ -64,22 +48,30 @@ vec3 mapped(vec3 n, vec3 p, vec2 at)
     slope.xy *= normalScale * inversesqrt(max(larger, 1e-30));
     return normalize(tangent * slope.x + bitangent * slope.y + n * max(slope.z, 0.05));
 }
-#endif
+
+// How dark the lines of the grid are at a place, of a pixel's width: stronger every ten metres; one pixel soft at every
+// distance.
+float gridLines(vec2 at)
+{
+    vec2 width = max(fwidth(at), vec2(1e-5));
+    vec2 toLine = abs(fract(at - 0.5) - 0.5);
+    vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
+    vec2 toTenth = abs(fract(at / 10.0 - 0.5) - 0.5) * 10.0;
+    vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
+    return 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
+}
 
 void main()
 {
     vec3 n = towardsEye(normalize(normal), place, cross(dFdx(place), dFdy(place)));
     vec3 albedo = color * meshColor.rgb;
     float covered = meshColor.a;
-#ifdef COLOR_IMAGE
-    vec4 texel = texture(image, uv);
-    albedo *= texel.rgb;
-#ifdef CUT
-    covered = coverage(keptAlpha(meshColor.a * texel.a, uv));
-#else
-    covered *= texel.a;
-#endif
-#endif
+    if (COLOR_IMAGE) {
+        vec4 texel = texture(image, uv);
+        albedo *= texel.rgb;
+        covered *= texel.a;
+        if (CUT) covered = coverage(keptAlpha(covered, uv));
+    }
     float hollow = 1.0;
     vec3 along = n;
 
@@ -96,50 +88,35 @@ void main()
         hollow = clamp(mix(1.0, grain.openness, detail), 0.3, 1.0);
     }
     float faded = 0.0;
-#ifdef PLANE
-    if (grid) {
-        // Stronger every ten metres; one pixel soft at every distance.
-        vec2 at = vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset;
-        vec2 width = max(fwidth(at), vec2(1e-5));
-        vec2 toLine = abs(fract(at - 0.5) - 0.5);
-        vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
-        vec2 toTenth = abs(fract(at / 10.0 - 0.5) - 0.5) * 10.0;
-        vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
-        albedo *= 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
+    if (PLANE) {
+        if (grid) albedo *= gridLines(vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset);
+        faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
     }
-    faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
-#endif
 
     float rough = roughness;
     float metal = metallic;
-#ifdef ROUGHNESS_IMAGE
-    vec4 surface = texture(roughnessImage, uv);
-    rough *= surface.g;
-    metal *= surface.b;
-#endif
-#ifdef NORMAL_IMAGE
-    along = mapped(along, place, uv);
-#endif
+    if (ROUGHNESS_IMAGE) {
+        vec4 surface = texture(roughnessImage, uv);
+        rough *= surface.g;
+        metal *= surface.b;
+    }
+    if (NORMAL_IMAGE) along = mapped(along, place, uv);
     vec3 sent = emissive;
-#ifdef EMISSIVE_IMAGE
-    sent *= texture(emissiveImage, uv).rgb;
-#endif
-#ifdef CUT
-    if (covered <= 0.0) discard;  // after all derivatives
-#endif
+    if (EMISSIVE_IMAGE) sent *= texture(emissiveImage, uv).rgb;
+    if (CUT && covered <= 0.0) discard;  // after all derivatives
 
     Surface s = surfaceOf(place, n, albedo, rough);
     s.metallic = metal;
     s.normal = along;
     s.openness *= hollow;
     vec3 radiance = shade(s) + sent;
-#ifdef REFRACTS
-    // Opacity is the share of light that the glass itself scatters.
-    vec4 glass = throughGlass(s, albedo);
-    vec3 both = covered * radiance + (1.0 - covered) * glass.a * glass.rgb;
-    covered += (1.0 - covered) * glass.a;
-    radiance = both / max(covered, 1e-3);
-#endif
+    if (REFRACTS) {
+        // Opacity is the share of light that the glass itself scatters.
+        vec4 glass = throughGlass(s, albedo);
+        vec3 both = covered * radiance + (1.0 - covered) * glass.a * glass.rgb;
+        covered += (1.0 - covered) * glass.a;
+        radiance = both / max(covered, 1e-3);
+    }
     radiance = withHaze(radiance, place);
     fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), covered);
 }

@@ -1,29 +1,17 @@
-// From light to what a screen shows.
+// From light to what a screen shows. Set by C++, true or false: LINEAR_LIGHT.
 
-// With LINEAR_LIGHT, where something is blended, light is stored as it is: blending is exact only then.
-#ifdef LINEAR_LIGHT
-vec3 squeeze(vec3 radiance)
-{
-    return radiance;
-}
-
-vec3 unsqueeze(vec3 radiance)
-{
-    return radiance;
-}
-#else
 // Samples are averaged by the resolve after being squeezed by their brightest channel, so that one sample of
-// the sun does not outweigh its three dark neighbours and edges stay smooth [Karis 2013].
+// the sun does not outweigh its three dark neighbours and edges stay smooth [Karis 2013]. With LINEAR_LIGHT, where
+// something is blended, light is stored as it is: blending is exact only then.
 vec3 squeeze(vec3 radiance)
 {
-    return radiance / (1.0 + max(radiance.r, max(radiance.g, radiance.b)));
+    return LINEAR_LIGHT ? radiance : radiance / (1.0 + max(radiance.r, max(radiance.g, radiance.b)));
 }
 
-vec3 unsqueeze(vec3 squeezed)
+vec3 unsqueeze(vec3 stored)
 {
-    return squeezed / max(1.0 - max(squeezed.r, max(squeezed.g, squeezed.b)), 1e-3);
+    return LINEAR_LIGHT ? stored : stored / max(1.0 - max(stored.r, max(stored.g, stored.b)), 1e-3);
 }
-#endif
 
 // A fit of the ACES reference film curve [Narkowicz 2016]: deep shadows, and
 // highlights that roll off instead of clipping.

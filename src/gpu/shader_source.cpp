@@ -256,6 +256,10 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
     return std::move(resolver.source);
 }
 
+std::string flag(const char* name, bool value) {
+    return concat(name, value ? " true" : " false");
+}
+
 const char* header330() {
     return "#version 330 core\n";
 }

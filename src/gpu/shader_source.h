@@ -48,6 +48,9 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::map<std::string, std::string>& generated, const std::string& header,
                            const ArrayTable* arrays = nullptr);
 
+// The define of a constant that is "true" or "false", which a shader asks for with an ordinary `if`.
+std::string flag(const char* name, bool value);
+
 const char* header330();  // #version 330 core
 const char* header430();  // #version 430 core, the first with compute shaders
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "gpu/shader_source.h"
 #include "render/water_light.h"
 
 namespace shoal {
@@ -26,17 +27,16 @@ Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadow
       water_(water),
       blends_(blends) {}
 
-std::vector<std::string> Lighting::defines(bool shadows) const {
+std::vector<std::string> Lighting::defines() const {
     std::vector<std::string> out = toneDefines();
-    if (shadows && shadows_.near != nullptr) out.emplace_back("SHADOWS");
-    if (shadows && shadows_.wide != nullptr) out.emplace_back("WIDE_SHADOWS");
+    out.push_back(gpu::flag("SHADOWS", shadows_.near != nullptr));
+    out.push_back(gpu::flag("WIDE_SHADOWS", shadows_.wide != nullptr));
     if (water_ != nullptr) out.emplace_back("WATER");
     return out;
 }
 
 std::vector<std::string> Lighting::toneDefines() const {
-    if (!blends_) return {};
-    return {"LINEAR_LIGHT"};
+    return {gpu::flag("LINEAR_LIGHT", blends_)};
 }
 
 void Lighting::applySun(const gpu::Program& program) const {

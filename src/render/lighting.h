@@ -78,8 +78,7 @@ class Lighting {
     Lighting(const Scene& scene, const BoundingSphere& crown, const Shadows& shadows, const WaterLight* water,
              bool blends);
 
-    // Returns the defines of programs that light surfaces; without `shadows`, of the sky's.
-    std::vector<std::string> defines(bool shadows = true) const;
+    std::vector<std::string> defines() const;      // those of programs that light surfaces, and of the sky's
     std::vector<std::string> toneDefines() const;  // those of the picture
     void applySky(const gpu::Program& program, const Eye& eye) const;
     void applyBeams(const gpu::Program& program, const Eye& eye) const;  // only with water

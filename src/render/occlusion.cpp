@@ -24,7 +24,7 @@ AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
     farthest_ = float(2 * reachByHeight * 2 * std::tan(scene.camera.fieldOfView / 2) * distance);
     find_ = gpu::Program(context, {"render/screen.vert", "render/occlusion.frag", {}, {}, "occlusion"});
     blur_ = gpu::Program(
-        context, {"render/screen.vert", "render/occlusion.frag", {"BLUR"}, {}, "occlusion, smoothed"});
+        context, {"render/screen.vert", "render/occlusion_smooth.frag", {}, {}, "occlusion, smoothed"});
 }
 
 void AmbientOcclusion::resize(int width, int height) {

@@ -7,6 +7,7 @@
 
 #include "core/contract.h"
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 #include "render/picture.h"
 
 namespace shoal {
@@ -24,17 +25,16 @@ static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene&
 }
 
 static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
-                                               const AmbientOcclusion& occlusion, bool clear) {
+                                               const AmbientOcclusion& occlusion, bool clear, bool linear) {
     std::vector<std::string> out = lighting.toneDefines();
-    if (clear) out.emplace_back("CLEAR");
-    if (beams) out.emplace_back("BEAMS");
-    if (occlusion) out.emplace_back("OCCLUSION");
+    out.insert(out.end(), {gpu::flag("CLEAR", clear), gpu::flag("LINEAR", linear),
+                           gpu::flag("BEAMS", bool(beams)), gpu::flag("OCCLUSION", bool(occlusion))});
     return out;
 }
 
 static std::vector<std::string> skyDefines(const Lighting& lighting, const Sky& sky) {
-    std::vector<std::string> out = lighting.defines(false);
-    if (sky.clouds > 0) out.emplace_back("CLOUDS");
+    std::vector<std::string> out = lighting.defines();
+    out.push_back(gpu::flag("CLOUDS", sky.clouds > 0));
     return out;
 }
 
@@ -70,18 +70,18 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
       sky_(context, {"render/screen.vert", "render/sky.frag", skyDefines(lighting_, scene.sky), {}, "sky"}),
       tone_(context, {"render/screen.vert",
                       "render/picture.frag",
-                      pictureDefines(lighting_, beams_, occlusion_, options.clear),
+                      pictureDefines(lighting_, beams_, occlusion_, options.clear, false),
                       {},
                       "picture"}),
       timers_(context, options.timing) {
     if (options.clear)
         covered_ = gpu::Program(context, {"render/screen.vert", "render/covered.frag", {}, {}, "covered"});
-    if (options.layers) {
-        std::vector<std::string> defines = pictureDefines(lighting_, beams_, occlusion_, options.clear);
-        defines.emplace_back("LINEAR");
-        linear_ = gpu::Program(context,
-                               {"render/screen.vert", "render/picture.frag", defines, {}, "linear picture"});
-    }
+    if (options.layers)
+        linear_ = gpu::Program(context, {"render/screen.vert",
+                                         "render/picture.frag",
+                                         pictureDefines(lighting_, beams_, occlusion_, options.clear, true),
+                                         {},
+                                         "linear picture"});
     resize(options.width, options.height);
     if (scene.sky.clouds > 0) drawClouds(scene);
     if (!wideShadow_) return;

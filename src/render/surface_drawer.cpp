@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/shader_source.h"
 #include "render/picture.h"
 #include "scene/collider_mesh.h"
 
@@ -192,19 +193,13 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
             const SurfaceMaterial& material = look.material;
             gpu::ProgramOptions lit{
                 "render/surface.vert", "render/surface.frag", lighting.defines(), {}, "surfaces"};
-            const auto define = [&](bool needed, const char* name) {
-                if (needed) lit.defines.emplace_back(name);
-            };
-            define(surface.plane.has_value(), "PLANE");
-            define(material.colorImage >= 0, "COLOR_IMAGE");
-            define(material.normalImage >= 0, "NORMAL_IMAGE");
-            define(material.roughnessImage >= 0, "ROUGHNESS_IMAGE");
-            define(material.emissiveImage >= 0, "EMISSIVE_IMAGE");
-            define(std::max({material.colorImage, material.normalImage, material.roughnessImage,
-                             material.emissiveImage}) >= 0,
-                   "IMAGES");
-            define(cutOut(material), "CUT");
-            define(refracting(material), "REFRACTS");
+            lit.defines.insert(lit.defines.end(), {gpu::flag("PLANE", surface.plane.has_value()),
+                                                   gpu::flag("COLOR_IMAGE", material.colorImage >= 0),
+                                                   gpu::flag("NORMAL_IMAGE", material.normalImage >= 0),
+                                                   gpu::flag("ROUGHNESS_IMAGE", material.roughnessImage >= 0),
+                                                   gpu::flag("EMISSIVE_IMAGE", material.emissiveImage >= 0),
+                                                   gpu::flag("CUT", cutOut(material)),
+                                                   gpu::flag("REFRACTS", refracting(material))});
             if (surface.plane) lit.label = "planes";
             look.lit = &programs_.get(context, lit);
             if (surface.plane) {
@@ -212,11 +207,12 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
                 look.lit->set("grid", int(grid));
             }
             if (!shadows || !surface.casts) continue;
-            gpu::ProgramOptions depth{
-                "render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"};
-            if (blended(material)) depth.defines.emplace_back("BLENDED");
-            if (hasHoles(material)) depth.defines.insert(depth.defines.end(), {"IMAGES", "HOLES"});
-            look.depth = &programs_.get(context, depth);
+            look.depth = &programs_.get(
+                context, {"render/surface.vert",
+                          "render/surface_shadow.frag",
+                          {gpu::flag("HOLES", hasHoles(material)), gpu::flag("BLENDED", blended(material))},
+                          {},
+                          "surface depth"});
         }
     }
 }

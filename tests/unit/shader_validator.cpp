@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 
@@ -102,12 +103,24 @@ void Validator::addFragments(const Plan& plan, KernelOptions options) {
     add(plan.groups[0].life.has_value(), KernelOptions::Work::births);
 }
 
+// All that gpu::flag says of shaders of pictures.
+static constexpr std::array picturesFlags = {
+    "PLANE",    "COLOR_IMAGE", "NORMAL_IMAGE", "ROUGHNESS_IMAGE", "EMISSIVE_IMAGE", "CUT",
+    "REFRACTS", "HOLES",       "BLENDED",      "SHADOWS",         "WIDE_SHADOWS",   "LINEAR_LIGHT",
+    "CLOUDS",   "BEAMS",       "OCCLUSION",    "CLEAR",           "LINEAR",
+};
+
 void Validator::addPicture(const std::string& file, Defines defines) {
     const auto has = [&defines](const char* name) {
         return std::find(defines.begin(), defines.end(), name) != defines.end();
     };
     const bool ofBuffers = has("ORDER_BUFFER") || has("SLAB_DRAWS") || has("BLOCK 64");
     const bool inTextures = has("TEXTURES");
+    for (const char* name : picturesFlags) {
+        const bool wanted = has(name);
+        defines.erase(std::remove(defines.begin(), defines.end(), name), defines.end());
+        defines.push_back(gpu::flag(name, wanted));
+    }
     for (const bool layered : {false, true}) {
         if (layered && !inTextures) break;
         if (!layered && inTextures && has("LIFE")) continue;  // the ping-pong path has no births

@@ -35,7 +35,7 @@ class Validator {
     // All that is drawn of a group in fragments.
     void addFragments(const Plan& plan, KernelOptions options);
     // For each form of the state: with TEXTURES among the defines, in layers as well. What needs a buffer is
-    // not for WebGL 2.
+    // not for WebGL 2. Constants (gpu::flag) are true where they are named among the defines, else false.
     void addPicture(const std::string& file, Defines defines);
     void addBoth(const std::string& file, Defines defines);  // in textures: desktop and WebGL 2
     void check() const;

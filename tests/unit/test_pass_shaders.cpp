@@ -34,8 +34,12 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
             set.push_back("DEPTH_ONLY");
             validator.addPicture("render/skinned.vert", set);
         }
-        for (Defines set : {Defines{}, Defines{"PLANE"}}) {
-            set.insert(set.end(), lit.begin(), lit.end());
+        for (const Defines& look : {Defines{},
+                                    {"PLANE"},
+                                    {"COLOR_IMAGE", "CUT"},
+                                    {"NORMAL_IMAGE", "ROUGHNESS_IMAGE", "EMISSIVE_IMAGE"}}) {
+            Defines set = lit;
+            set.insert(set.end(), look.begin(), look.end());
             validator.addPicture("render/surface.vert", set);
             validator.addPicture("render/surface.frag", set);
         }
@@ -54,8 +58,8 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
         validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend"});
     validator.addPicture("render/sky.frag", {"WATER"});
     validator.addPicture("render/picture.frag", {"BEAMS", "OCCLUSION"});
-    for (const Defines& pass : {Defines{}, Defines{"BLUR"}})
-        validator.addPicture("render/occlusion.frag", pass);
+    for (const char* file : {"render/occlusion.frag", "render/occlusion_smooth.frag"})
+        validator.addPicture(file, {});
     for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend", "BLEND alphaBlend"})
         validator.addPicture("particles/particle.frag", {"WATER", "LIT", "FACING cameraFacing", blend});
     validator.addPicture("render/beams.frag", {});
@@ -70,14 +74,8 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     validator.addPicture("render/picture.frag", {"CLEAR"});
     validator.addPicture("render/picture.frag", {"CLEAR", "LINEAR", "OCCLUSION"});
     validator.addPicture("render/covered.frag", {});
-    validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
-    validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});
-    for (const auto& more :
-         {std::vector<std::string>{"BLENDED"}, {"IMAGES", "HOLES"}, {"BLENDED", "IMAGES", "HOLES"}}) {
-        std::vector<std::string> defines = {"DEPTH_ONLY"};
-        defines.insert(defines.end(), more.begin(), more.end());
-        validator.addPicture("render/surface_shadow.frag", defines);
-    }
+    for (const Defines& set : combinations({"BLENDED", "HOLES"}))
+        validator.addPicture("render/surface_shadow.frag", set);
     validator.check();
 }
 
