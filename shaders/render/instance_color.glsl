@@ -1,15 +1,8 @@
-// The colour of a molecule. With COLOR_BY by its speed; else no two leaves of a tree are alike: each instance takes its place
-// between two colours from its seed.
-#include "state/molecule.glsl"
-#ifdef COLOR_BY
+// The colour of a molecule. No two leaves of a tree are alike: each instance takes its place between two colours from its
+// seed. Set by C++, true or false: COLOR_BY, its speed says the colour instead.
 #include "render/color_scale.glsl"
-
-vec3 instanceColor(int molecule)
-{
-    return scaleColor(molecule);
-}
-#else
 #include "render/looks.glsl"
+#include "state/molecule.glsl"
 
 uniform vec3 firstColor;  // linear RGB
 uniform vec3 secondColor;
@@ -17,6 +10,6 @@ uniform float variation;  // of the brightness, in [0, 1]
 
 vec3 instanceColor(int molecule)
 {
+    if (COLOR_BY) return scaleColor(molecule);
     return colorOfSeed(moleculeSeed(molecule), firstColor, secondColor, variation);
 }
-#endif

@@ -1,5 +1,5 @@
-// A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
-// Variants: TEXTURED, DEPTH_ONLY, COLOR_BY (by speed), and those of render/drawn.glsl and render/grown.glsl.
+// A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex. Variants are those of
+// render/drawn.glsl.
 
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
@@ -11,11 +11,9 @@ layout(location = 0) in vec2 cornerUv;
 uniform mat4 toClip;
 
 out vec2 uv;
-#ifndef DEPTH_ONLY
 out vec3 place;
 out vec3 normal;
 flat out vec3 color;
-#endif
 
 void main()
 {
@@ -23,11 +21,9 @@ void main()
     bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
     vec3 at = drawnPlace(molecule, gl_VertexID);
     uv = cornerUv;
-#ifndef DEPTH_ONLY
     place = at;
     normal = vertexNormal(molecule, gl_VertexID);
     color = instanceColor(molecule);
-#endif
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

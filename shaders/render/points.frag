@@ -1,13 +1,5 @@
-// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing
-// else).
+// A sprite shaded as the sphere that it stands for.
 
-#ifdef DEPTH_ONLY
-void main()
-{
-    vec2 at = gl_PointCoord * 2.0 - 1.0;
-    if (dot(at, at) > 1.0) discard;
-}
-#else
 #include "render/blend.glsl"
 #include "render/light.glsl"
 
@@ -37,4 +29,3 @@ void main()
     s.metallic = metallic;
     fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }
-#endif

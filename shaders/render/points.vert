@@ -1,5 +1,4 @@
-// Molecules without triangles: every vertex a round sprite. Variants: DEPTH_ONLY, COLOR_BY (by speed), and those of
-// render/drawn.glsl.
+// Molecules without triangles: every vertex a round sprite. Variants are those of render/drawn.glsl.
 
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
@@ -9,10 +8,8 @@ uniform mat4 toClip;
 uniform float pointSize;      // m, diameter
 uniform float pixelsPerMeter; // at a distance of one metre, or everywhere in the shadow map
 
-#ifndef DEPTH_ONLY
 out vec3 middle;
 flat out vec3 color;
-#endif
 
 void main()
 {
@@ -22,8 +19,6 @@ void main()
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
     gl_PointSize = max(pointSize * pixelsPerMeter / gl_Position.w, 1.0);
-#ifndef DEPTH_ONLY
     middle = at;
     color = instanceColor(molecule);
-#endif
 }

@@ -1,7 +1,7 @@
 // A corner of a molecule's skin (src/molecule/skin.h): gl_InstanceID is the molecule, gl_VertexID the skin's
 // vertex, which depends on SKIN_WEIGHTS (1 to 8) of the molecule's vertices. Its two tangents move as it
-// does, so that its normal turns and shears with the molecule.
-// Variants: SKIN_OFFSETS (offsets along the molecule's normal), and those of render/molecule.vert.
+// does, so that its normal turns and shears with the molecule. Set by C++, true or false: SKIN_OFFSETS, some vertex has
+// offsets along the molecule's normal. Variants are those of render/drawn.glsl.
 
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
@@ -17,11 +17,9 @@ layout(location = 6) in mat4 moreInfluences;  // and of four more
 uniform mat4 toClip;
 
 out vec2 uv;
-#ifndef DEPTH_ONLY
 out vec3 place;
 out vec3 normal;
 flat out vec3 color;
-#endif
 
 vec4 influenceAt(int k)
 {
@@ -39,13 +37,9 @@ void addInfluence(inout Sums sums, int molecule, vec3 first, vec4 influence)
     int vertex = int(influence.x);
     vec3 from = drawnPlace(molecule, vertex) - first;
     sums.place += influence.y * from;
-#ifndef DEPTH_ONLY
     sums.along += influence.z * from;
     sums.across += influence.w * from;
-#endif
-#ifdef SKIN_OFFSETS
-    sums.normal += influence.y * vertexNormal(molecule, vertex);
-#endif
+    if (SKIN_OFFSETS) sums.normal += influence.y * vertexNormal(molecule, vertex);
 }
 
 void main()
@@ -55,22 +49,20 @@ void main()
     vec3 first = drawnPlace(molecule, int(influenceAt(0).x));
     Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     for (int k = 0; k < SKIN_WEIGHTS; ++k) addInfluence(sums, molecule, first, influenceAt(k));
-#ifdef SKIN_OFFSETS
-    float size = length(sums.normal);
-    vec3 outward = size > 0.0 ? sums.normal / size : vec3(0.0);
-    sums.place += offsets.x * outward;
-    sums.along += offsets.y * outward;
-    sums.across += offsets.z * outward;
-#endif
+    if (SKIN_OFFSETS) {
+        float size = length(sums.normal);
+        vec3 outward = size > 0.0 ? sums.normal / size : vec3(0.0);
+        sums.place += offsets.x * outward;
+        sums.along += offsets.y * outward;
+        sums.across += offsets.z * outward;
+    }
     vec3 at = first + sums.place;
     uv = cornerUv;
-#ifndef DEPTH_ONLY
     place = at;
     vec3 turned = cross(sums.along, sums.across);
     float area = length(turned);
     normal = area > 1e-6 ? turned / area : vec3(0.0);  // zero: the triangle's own is taken
     color = instanceColor(molecule);
-#endif
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

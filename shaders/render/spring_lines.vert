@@ -1,5 +1,5 @@
-// A molecule's springs as lines, straight from the state, coloured by their strain. Variant: CONSTANTS (instances
-// differ in size).
+// A molecule's springs as lines, straight from the state, coloured by their strain. Set by C++, true or false: SCALED,
+// instances differ in size.
 
 #include "state/molecule.glsl"
 
@@ -10,21 +10,6 @@ uniform int firstMolecule;
 uniform float strainShown;  // at which a colour is full
 uniform vec2 halfWidth;     // of a line, in clip space
 
-#if !defined(TEXTURES) && defined(CONSTANTS)
-uniform VALUES constants;  // x scale
-#endif
-
-float moleculeScale(int molecule)
-{
-#ifdef TEXTURES
-    return texelFetch(constants, recordTexel(molecule), 0).y;
-#elif defined(CONSTANTS)
-    return valueOf(constants, molecule).x;
-#else
-    return 1.0;
-#endif
-}
-
 out vec3 color;
 
 void main()
@@ -34,7 +19,7 @@ void main()
     bool atStart = corner == 0 || corner == 1 || corner == 3;
     bool left = corner == 0 || corner == 3 || corner == 5;
     vec3 here = vertexPlace(molecule, int(spring.x)), there = vertexPlace(molecule, int(spring.y));
-    float rest = spring.z * moleculeScale(molecule);
+    float rest = spring.z * (SCALED ? moleculeScale(molecule) : 1.0);
     float strain = clamp((distance(here, there) / max(rest, 1e-9) - 1.0) / strainShown, -1.0, 1.0);
     vec3 full = strain > 0.0 ? vec3(2.2, 0.18, 0.05) : vec3(0.08, 0.3, 2.4);
     color = mix(vec3(0.16, 0.18, 0.14), full, abs(strain));

@@ -49,12 +49,18 @@ uint moleculeSeed(int molecule)
 {
     return uint(texelFetch(constants, recordTexel(molecule), 0).x);
 }
+
+float moleculeScale(int molecule)
+{
+    return texelFetch(constants, recordTexel(molecule), 0).y;
+}
 #else
 #include "state/packed.glsl"
 
 uniform VALUES states;   // positions, then velocities, three floats a vertex without gaps
 uniform VALUES normals;  // alike
 uniform VALUES records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
+uniform VALUES constants;  // x scale, where instances differ
 
 vec3 moleculeAnchor(int molecule)
 {
@@ -84,6 +90,11 @@ vec3 vertexNormal(int molecule, int vertex)
 uint moleculeSeed(int molecule)
 {
     return uint(abs(valueOf(records, molecule).w)) - 1u;
+}
+
+float moleculeScale(int molecule)
+{
+    return valueOf(constants, molecule).x;
 }
 #endif
 

@@ -1,6 +1,7 @@
 #include "render/group_drawer.h"
 
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 
 namespace shoal {
 
@@ -58,10 +59,9 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
     gpu::ProgramOptions wanted = options;
     const std::vector<std::string> defines = reader_.defines(state);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
-    if (&variants == &lit_) {
-        wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
-        if (scale_) wanted.defines.emplace_back("COLOR_BY");
-    }
+    const bool lit = &variants == &lit_;
+    wanted.defines.push_back(gpu::flag("COLOR_BY", lit && scale_));
+    if (lit) wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
     program = &programs_->get(*context_, wanted);
     return *program;
 }

@@ -116,11 +116,12 @@ class MoleculeDrawer : public GroupDrawer {
     Material material_;
     InstanceColors colors_;
     bool points_;
-    std::vector<std::string> skinDefines_;  // none: the molecule's own triangles are drawn
-    double grow_ = 0, shrink_ = 0;          // s (scene/emitter.h)
-    gpu::Buffer uvs_, indices_;             // none: points
-    gpu::Buffer skin_;                      // on which vertices its own depend (shaders/render/skinned.vert)
-    gpu::Texture image_;                    // none: plain colour
+    int skinWeights_ = 0;           // 0: the molecule's own triangles are drawn
+    bool skinOffsets_ = false;      // some vertex of the skin lies off them
+    double grow_ = 0, shrink_ = 0;  // s (scene/emitter.h)
+    gpu::Buffer uvs_, indices_;     // none: points
+    gpu::Buffer skin_;              // on which vertices its own depend (shaders/render/skinned.vert)
+    gpu::Texture image_;            // none: plain colour
 };
 
 // A group of point particles by their type (scene/particle.h): dots, sprites or quads, whose looks the vertex

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 
 namespace shoal {
 
@@ -105,7 +106,7 @@ const gpu::Program& SpringLines::program(Drawn& group, const StateView& state, c
                                 group.name + " (springs)"};
     for (const std::string& define : group.reader.defines(state))
         options.defines.push_back(define);
-    if (group.scaled) options.defines.emplace_back("CONSTANTS");
+    options.defines.push_back(gpu::flag("SCALED", group.scaled));
     program = gpu::Program(*context_, options);
     return program;
 }

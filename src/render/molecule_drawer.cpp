@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "geometry/mesh_levels.h"
+#include "gpu/shader_source.h"
 #include "molecule/skin.h"
 #include "render/group_drawer.h"
 
@@ -103,26 +104,24 @@ void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
     for (int k = 0; k < int(most); ++k)
         corners_.attribute(2 + k, skin_, 4, sizeof(Corner),
                            int(offsetof(Corner, influences)) + k * int(sizeof(glm::vec4)));
-    skinDefines_ = {concat("SKIN_WEIGHTS ", most)};
-    if (offsets) skinDefines_.emplace_back("SKIN_OFFSETS");
+    skinWeights_ = int(most);
+    skinOffsets_ = offsets;
 }
 
 void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     gpu::ProgramOptions& depth = depthOptions_;
-    if (image_) depth.defines.push_back("TEXTURED");
-    if (grows()) depth.defines.push_back("GROWS");
-    depth.defines.insert(depth.defines.end(), skinDefines_.begin(), skinDefines_.end());
-    depth.vertex = points_                 ? "render/points.vert"
-                   : !skinDefines_.empty() ? "render/skinned.vert"
-                                           : "render/molecule.vert";
-    depth.fragment = points_ ? "render/points.frag" : "render/molecule.frag";
+    depth.defines = {gpu::flag("TEXTURED", bool(image_)), gpu::flag("GROWS", grows()),
+                     concat("SKIN_WEIGHTS ", skinWeights_), gpu::flag("SKIN_OFFSETS", skinOffsets_)};
+    depth.vertex = points_            ? "render/points.vert"
+                   : skinWeights_ > 0 ? "render/skinned.vert"
+                                      : "render/molecule.vert";
+    depth.fragment = points_ ? "render/points_shadow.frag" : "render/molecule_shadow.frag";
     litOptions_ = depth;
+    litOptions_.fragment = points_ ? "render/points.frag" : "render/molecule.frag";
     for (const std::string& define : lighting.defines())
         litOptions_.defines.push_back(define);
     litOptions_.defines.push_back(blendDefine(material_.blend));
     litOptions_.label = name_ + " (picture)";
-    depth.defines.push_back("DEPTH_ONLY");
-    if (!points_) depth.fragment = "render/molecule_shadow.frag";
     depth.label = name_ + " (shadow)";
 }
 

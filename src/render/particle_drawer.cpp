@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gpu/shader_source.h"
 #include "render/group_drawer.h"
 
 namespace shoal {
@@ -90,50 +91,46 @@ void ParticleDrawer::makeStream() {
 
 std::vector<std::string> ParticleDrawer::defines() const {
     const bool quads = type_.shape == ParticleShape::quads;
-    std::vector<std::string> out = {concat("BATCH ", batch), concat("CORNERS ", quads ? 4 : 1)};
-    const auto add = [&out](bool wanted, const char* define) {
-        if (wanted) out.emplace_back(define);
-    };
-    add(type_.shape == ParticleShape::points, "POINTS");
-    add(type_.shape == ParticleShape::sprites, "SPRITES");
-    out.push_back(concat("FACING ", name(type_.facing), "Facing"));
-    add(type_.size.x != type_.size.y, "SIZES");
-    add(ages_ && type_.growth != glm::dvec2(1), "GROWS");
-    add(turns(type_), "TURNS");
-    add(ages_ && type_.colors.size() > 1, "COLORS");
-    if (!type_.image) return out;
-    const bool several = type_.image->firstTile != type_.image->lastTile;
-    const bool flips = several && type_.image->flipBook, again = type_.image->frameRate > 0;
-    add(true, "IMAGE");
-    out.push_back(concat("TILES ", !several ? "oneTile"
-                                   : !flips ? "tileOfSeed"
-                                   : again  ? "tilesAgain"
-                                            : "tilesOnce"));
-    out.push_back(concat("FADES ", flips && type_.image->blend ? "true" : "false"));
-    return out;
+    const bool several = type_.image && type_.image->firstTile != type_.image->lastTile;
+    const bool flips = several && type_.image->flipBook, again = flips && type_.image->frameRate > 0;
+    return {concat("BATCH ", batch),
+            concat("CORNERS ", quads ? 4 : 1),
+            concat("SHAPE ", name(type_.shape), "Shape"),
+            concat("FACING ", name(type_.facing), "Facing"),
+            concat("TILES ", !several ? "oneTile"
+                             : !flips ? "tileOfSeed"
+                             : again  ? "tilesAgain"
+                                      : "tilesOnce"),
+            gpu::flag("AGES", ages_),
+            gpu::flag("SIZES", type_.size.x != type_.size.y),
+            gpu::flag("GROWS", ages_ && type_.growth != glm::dvec2(1)),
+            gpu::flag("TURNS", turns(type_)),
+            gpu::flag("IMAGE", type_.image.has_value()),
+            gpu::flag("FADES", flips && type_.image->blend)};
 }
 
 void ParticleDrawer::chooseShaders(const Lighting& lighting) {
     depthOptions_.vertex = "particles/particle.vert";
-    depthOptions_.fragment = "particles/particle.frag";
+    depthOptions_.fragment = "particles/particle_shadow.frag";
     depthOptions_.defines = defines();
     litOptions_ = depthOptions_;
-    depthOptions_.defines.insert(depthOptions_.defines.end(), {"DEPTH_ONLY", blendDefine(Blend::none)});
+    litOptions_.fragment = "particles/particle.frag";
+    depthOptions_.defines.push_back(blendDefine(Blend::none));
     depthOptions_.label = name_ + " (shadow)";
 
     std::vector<std::string>& lit = litOptions_.defines;
     for (const std::string& define : lighting.defines())
         lit.push_back(define);
     lit.push_back(blendDefine(type_.blend));
-    if (type_.lit && type_.blend != Blend::multiplicative) lit.push_back("LIT");
-    if (readsDepth()) lit.push_back("SOFT");
+    lit.push_back(gpu::flag("LIT", type_.lit && type_.blend != Blend::multiplicative));
+    lit.push_back(gpu::flag("SOFT", readsDepth()));
     litOptions_.label = name_ + " (picture)";
 }
 
 void ParticleDrawer::setColors(const gpu::Program& program) const {
     const ColorPieces pieces = colorPieces(type_.colors);
     program.set("firstColor", pieces.first);
-    if (!ages_ || type_.colors.size() < 2) return;
+    if (!ages_) return;
     program.set("colorChanges", std::span<const glm::vec4>(pieces.changes));
     program.set("colorBegins", pieces.begins);
     program.set("colorPerAge", pieces.perAge);

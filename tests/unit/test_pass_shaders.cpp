@@ -15,12 +15,14 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     Validator validator;
     for (const char* file : {"render/screen.vert", "render/sky.frag", "render/picture.frag"})
         validator.addPicture(file, {});
+    const std::vector<const char*> ofMolecules = {"render/molecule.vert",        "render/molecule.frag",
+                                                  "render/molecule_shadow.frag", "render/points.vert",
+                                                  "render/points.frag",          "render/points_shadow.frag"};
     for (const Defines& lit : combinations({"SHADOWS"})) {
-        for (const char* file :
-             {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"}) {
+        for (const char* file : ofMolecules) {
             for (Defines set : combinations({"TEXTURED"})) {
                 set.insert(set.end(), lit.begin(), lit.end());
-                set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "BLEND noneBlend"});
+                set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "BLEND noneBlend", "SKIN_WEIGHTS 0"});
                 validator.addPicture(file, set);
             }
         }
@@ -31,8 +33,6 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
             if (!inTextures) set.insert(set.end(), {"BLOCK 64", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"});
             validator.addPicture("render/skinned.vert", set);
             validator.addPicture("render/molecule.frag", set);
-            set.push_back("DEPTH_ONLY");
-            validator.addPicture("render/skinned.vert", set);
         }
         for (const Defines& look : {Defines{},
                                     {"PLANE"},
@@ -44,24 +44,24 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
             validator.addPicture("render/surface.frag", set);
         }
     }
-    for (Defines set : combinations({"TEXTURED"})) {
-        set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "DEPTH_ONLY"});
-        for (const char* file : {"render/molecule.vert", "render/molecule_shadow.frag", "render/points.vert",
-                                 "render/points.frag"})
-            validator.addPicture(file, set);
-    }
     for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend"})
-        validator.addPicture("render/molecule.frag", {blend});
+        validator.addPicture("render/molecule.frag", {blend, "SKIN_WEIGHTS 0"});
     for (const char* file : {"render/molecule.vert", "render/points.vert"})
         validator.addPicture(file, {"TEXTURES", "STATE_WIDTH 1024", "COLOR_BY"});
     for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
-        validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend"});
+        validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend", "SKIN_WEIGHTS 0"});
+    for (const Defines& scaled : combinations({"SCALED"})) {
+        Defines set = scaled;
+        set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024"});
+        validator.addPicture("render/spring_lines.vert", set);
+    }
     validator.addPicture("render/sky.frag", {"WATER"});
     validator.addPicture("render/picture.frag", {"BEAMS", "OCCLUSION"});
     for (const char* file : {"render/occlusion.frag", "render/occlusion_smooth.frag"})
         validator.addPicture(file, {});
     for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend", "BLEND alphaBlend"})
-        validator.addPicture("particles/particle.frag", {"WATER", "LIT", "FACING cameraFacing", blend});
+        validator.addPicture("particles/particle.frag",
+                             {"WATER", "LIT", "SHAPE quadsShape", "FACING cameraFacing", blend});
     validator.addPicture("render/beams.frag", {});
     validator.addPicture("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"});
     validator.addPicture("water/caustics.frag", {"TEXELS 512"});
@@ -86,8 +86,8 @@ TEST_CASE("the shaders that draw in order are sound GLSL", "[shaders]") {
     for (const Defines& order : orders) {
         for (const char* turns : {"", "SLABS", "SLAB_DRAWS"}) {
             Defines set = order;
-            set.insert(set.end(),
-                       {"TEXTURES", "STATE_WIDTH 1024", "ORDERED", "BLEND alphaBlend", "LINEAR_LIGHT"});
+            set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "ORDERED", "BLEND alphaBlend",
+                                   "LINEAR_LIGHT", "SKIN_WEIGHTS 0"});
             if (*turns != 0) set.emplace_back(turns);
             for (const char* file :
                  {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"})
@@ -112,28 +112,29 @@ TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
     const std::vector<Defines> shapes = {
-        {"POINTS", "FACING cameraFacing"},
-        {"SPRITES", "FACING cameraFacing", "SIZES", "TURNS", "IMAGE", "TILES tileOfSeed", "FADES false"},
-        {"FACING cameraFacing", "SIZES", "GROWS", "TURNS", "COLORS", "IMAGE", "TILES tilesAgain",
-         "FADES true", "LIFE"},
-        {"FACING velocityFacing", "COLORS", "LIFE"},
-        {"FACING freeFacing", "TURNS", "IMAGE", "TILES tilesOnce", "FADES false", "LIFE"}};
-    const std::vector<Defines> looks = {{"BLEND noneBlend", "DEPTH_ONLY"},
+        {"SHAPE pointsShape", "FACING cameraFacing", "TILES oneTile"},
+        {"SHAPE spritesShape", "FACING cameraFacing", "SIZES", "TURNS", "IMAGE", "TILES tileOfSeed"},
+        {"SHAPE quadsShape", "FACING cameraFacing", "SIZES", "GROWS", "TURNS", "IMAGE", "TILES tilesAgain",
+         "FADES", "AGES", "LIFE"},
+        {"SHAPE quadsShape", "FACING velocityFacing", "TILES oneTile", "AGES", "LIFE"},
+        {"SHAPE quadsShape", "FACING freeFacing", "TURNS", "IMAGE", "TILES tilesOnce", "AGES", "LIFE"}};
+    const std::vector<Defines> looks = {{"BLEND noneBlend"},
                                         {"BLEND noneBlend", "LIT"},
                                         {"BLEND alphaBlend", "LIT", "SHADOWS", "SOFT", "ORDERED", "SLABS"},
                                         {"BLEND additiveBlend", "SOFT", "ORDERED", "SLAB_DRAWS"},
                                         {"BLEND multiplicativeBlend", "LINEAR_LIGHT"}};
     for (const Defines& shape : shapes) {
         for (Defines set : looks) {
-            const bool quads = shape[0] != "POINTS" && shape[0] != "SPRITES";
+            const bool quads = shape[0] == "SHAPE quadsShape";
             set.insert(set.end(), shape.begin(), shape.end());
             set.insert(set.end(),
                        {"TEXTURES", "STATE_WIDTH 1024", "BATCH 64", quads ? "CORNERS 4" : "CORNERS 1"});
             validator.addPicture("particles/particle.vert", set);
             validator.addPicture("particles/particle.frag", set);
+            validator.addPicture("particles/particle_shadow.frag", set);
         }
     }
-    CHECK(validator.count() == 118);
+    CHECK(validator.count() == 189);
     validator.check();
 }
 
