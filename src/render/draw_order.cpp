@@ -4,6 +4,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 #include "render/lighting.h"
 
 namespace shoal {
@@ -70,8 +71,7 @@ DrawOrder::DrawOrder(gpu::Context& context, const GroupPlan& group, size_t index
 
 std::vector<std::string> DrawOrder::defines() const {
     if (!network_) return {"ORDER_BUFFER"};
-    if (network_->kind() == NetworkSort::Kind::bitonic) return {"ORDER_PAIRED"};
-    return {};
+    return {gpu::flag("ORDER_PAIRED", network_->kind() == NetworkSort::Kind::bitonic)};
 }
 
 void DrawOrder::bind(const gpu::Program& program) const {

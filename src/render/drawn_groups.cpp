@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 
 namespace shoal {
 
@@ -107,7 +108,7 @@ void DrawnGroups::makeLevels(gpu::Context& context, const Plan& plan) {
         if (group.blend != Blend::none || streams.size() < 2 || !context.info().computeShaders) continue;
         group.levels = std::make_unique<LevelDraws>(context, plan.groups[drawer.index()], drawer.index(),
                                                     streams, double(group.scale));
-        drawer.addOrderDefines({"ORDERED", "SLAB_DRAWS"});
+        drawer.addOrderDefines({"SLAB_DRAWS"});
         drawer.addOrderDefines(group.levels->order().defines());
     }
 }
@@ -138,10 +139,13 @@ void DrawnGroups::makeOrders(gpu::Context& context, const Plan& plan, int slabs)
         GroupDrawer& drawer = *group.drawer;
         group.order = std::make_unique<DrawOrder>(context, plan.groups[drawer.index()], drawer.index(),
                                                   group.sort, group.spreadFrames);
-        drawer.addOrderDefines({"ORDERED"});
-        if (inSlabs) drawer.addOrderDefines({group.order->exact() ? "SLAB_DRAWS" : "SLABS"});
+        const bool slabDraws = inSlabs && group.order->exact();
+        if (slabDraws)
+            drawer.addOrderDefines({"SLAB_DRAWS"});
+        else
+            drawer.addOrderDefines({"ORDERED", gpu::flag("SLABS", inSlabs)});
         drawer.addOrderDefines(group.order->defines());
-        if (inSlabs && group.order->exact())
+        if (slabDraws)
             group.slabDraws =
                 std::make_unique<SlabDraws>(context, slabs, *group.order, std::vector{drawer.streams()[0]});
         // The slabs are cut by the largest group that is sorted, else by the largest.

@@ -105,14 +105,14 @@ void Validator::addFragments(const Plan& plan, KernelOptions options) {
 
 // All that gpu::flag says of shaders of pictures.
 static constexpr std::array picturesFlags = {
-    "PLANE",          "COLOR_IMAGE", "NORMAL_IMAGE", "ROUGHNESS_IMAGE",
-    "EMISSIVE_IMAGE", "CUT",         "REFRACTS",     "HOLES",
-    "BLENDED",        "SHADOWS",     "WIDE_SHADOWS", "LINEAR_LIGHT",
-    "CLOUDS",         "BEAMS",       "OCCLUSION",    "CLEAR",
-    "LINEAR",         "TEXTURED",    "GROWS",        "SKIN_OFFSETS",
-    "COLOR_BY",       "SCALED",      "AGES",         "SIZES",
-    "TURNS",          "IMAGE",       "FADES",        "LIT",
-    "SOFT",
+    "PLANE",          "COLOR_IMAGE",  "NORMAL_IMAGE", "ROUGHNESS_IMAGE",
+    "EMISSIVE_IMAGE", "CUT",          "REFRACTS",     "HOLES",
+    "BLENDED",        "SHADOWS",      "WIDE_SHADOWS", "LINEAR_LIGHT",
+    "CLOUDS",         "BEAMS",        "OCCLUSION",    "CLEAR",
+    "LINEAR",         "TEXTURED",     "GROWS",        "SKIN_OFFSETS",
+    "COLOR_BY",       "SCALED",       "AGES",         "SIZES",
+    "TURNS",          "IMAGE",        "FADES",        "LIT",
+    "SOFT",           "ORDER_PAIRED", "SLABS",
 };
 
 void Validator::addPicture(const std::string& file, Defines defines) {
