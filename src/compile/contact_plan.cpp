@@ -118,15 +118,6 @@ bool ContactPlan::mayRest(const GroupPlan& group) const {
     return settings.rest && !group.needs.actuation && !group.needs.steers;
 }
 
-ContactPlan::Exclusions ContactPlan::exclusions() const {
-    Exclusions out;
-    for (const ContactGroup& group : groups) {
-        out.groups.emplace_back(group.firstSphere, group.spheresOf, out.words.size(), group.wordsOf);
-        out.words.insert(out.words.end(), group.apart.begin(), group.apart.end());
-    }
-    return out;
-}
-
 float ContactPlan::momentum(int iteration, int iterations) {
     const float most = std::min(0.8f, 1 - 1.6f / float(iterations));
     return iteration == 0 ? 0 : std::clamp(0.8f - 0.05f * float(iteration - 7), 0.0f, most);

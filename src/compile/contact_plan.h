@@ -59,10 +59,8 @@ struct ContactPlan {
     // floats.
     double cell = 0;
     int tableBits = 0;    // cells are hashed into a table of 2^tableBits
-    int listLength = 24;  // spheres that one may touch
-    // As many in fragments: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
-    static constexpr int fragmentList = 24;
-    int steps = 1;  // of a frame
+    int listLength = 24;  // spheres that one may touch, where there is room for them
+    int steps = 1;        // of a frame
     ContactSettings settings;
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
@@ -78,16 +76,7 @@ struct ContactPlan {
     bool remembers() const { return settings.response == ContactResponse::simultaneous; }
     // Whether molecules of a group may rest: its springs do not move by themselves.
     bool mayRest(const GroupPlan& group) const;
-    // Textures of fragments and of the ping-pong path have rows of 2^rowBits texels: the table of cells is a
-    // square or two.
-    int rowBits() const { return (tableBits + 1) / 2; }
-    // Which spheres of one molecule do not meet, of all groups (shaders/contact/search/touch.glsl): for each
-    // group x its first sphere, y spheres of a molecule, z first word, w words of a sphere.
-    struct Exclusions {
-        std::vector<uint32_t> words;
-        std::vector<glm::uvec4> groups;
-    };
-    Exclusions exclusions() const;
+    size_t cells() const { return size_t(1) << tableBits; }  // of that table
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
     // it, and as friction that slides makes the matrix of the problem unsymmetric, much of it for long

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "compile/passes.h"
 #include "compile/path.h"
 #include "core/error.h"
 #include "core/json_build.h"
@@ -12,7 +13,7 @@ namespace shoal {
 
 namespace {
 
-const char* when(PassPlan::When moment) {
+const char* when(Pass::When moment) {
     static constexpr const char* words[] = {"once a frame, first", "every substep", "once a frame, last"};
     return words[size_t(moment)];
 }
@@ -50,12 +51,10 @@ std::string lanesText(const Plan& plan, const GroupPlan& group, Lanes wanted) {
 
 }  // namespace
 
-static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
-    for (const PassPlan& pass : plan.passes) {
-        if (pass.group != g) continue;
+static void listPasses(std::ostringstream& out, const GroupPlan& group) {
+    for (const Pass& pass : passesOf(group))
         out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when)
             << printable(pass.why) << "\n";
-    }
 }
 
 // Lists the parts of a group's fused kernel.
@@ -175,7 +174,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         out << "fields   " << name(plan.fieldSampling) << "\n";
     out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true, inPlace)) << ", tables "
-        << mebibytes(plan.tableBytes()) << "\n";
+        << mebibytes(tableBytes(plan, choice.path)) << "\n";
     for (const std::string& grid : plan.grids)
         out << "         " << grid << "\n";
     tellContact(out, plan, choice.path);
@@ -193,7 +192,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         }
         if (group.forces.any()) out << "  forces   " << joined(forceNames(plan, group), ", ") << "\n";
         if (choice.path == Path::pingPong)
-            listPasses(out, plan, g);
+            listPasses(out, group);
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         if (choice.path == Path::fused) out << "  lanes    " << lanesText(plan, group, choice.lanes) << "\n";
@@ -217,9 +216,10 @@ static JsonValue groupEntry(const Plan& plan, size_t g, const PathChoice& choice
     const GroupPlan& group = plan.groups[g];
     const Path path = choice.path;
     std::vector<JsonValue> passes;
-    if (path != Path::pingPong) passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
-    for (const PassPlan& pass : plan.passes)
-        if (path == Path::pingPong && pass.group == g)
+    if (path != Path::pingPong)
+        passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
+    else
+        for (const Pass& pass : passesOf(group))
             passes.push_back(passEntry(name(pass.kind), when(pass.when), pass.why));
     JsonValue out =
         object(key("name", group.name), key("molecules", group.count), key("vertices", group.vertexCount),
@@ -247,7 +247,7 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
                            key("fieldSampling", name(plan.fieldSampling)), key("frameRate", plan.frameRate),
                            key("substeps", plan.substeps),
                            key("stateBytes", stateBytes(plan, choice.path, true, inPlace)),
-                           key("tableBytes", plan.tableBytes()), key("groups", groups));
+                           key("tableBytes", tableBytes(plan, choice.path)), key("groups", groups));
     if (!plan.grids.empty()) append(out, key("grids", plan.grids));
     if (!plan.contact.any()) return out;
     const ContactSettings& settings = plan.contact.settings;

@@ -3,6 +3,7 @@
 // that a slider moves are uniforms (shaders/fused/state.glsl), so that none of them compiles anything.
 #pragma once
 
+#include <bit>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,11 @@ struct Needs {
     bool scale = false;    // instances differ from the molecule's own size
     bool phase = false;    // and in the phase of their muscles
     bool collide = false;
-    bool normals = false;       // the shape has triangles
-    bool life = false;          // some are born or die
-    bool liveSprings = false;   // their numbers may change while it runs (CompileOptions)
-    bool steers = false;        // they school
-    bool avoids = false;        // and turn from colliders
-    bool acceleration = false;  // of the springs is kept
+    bool normals = false;      // the shape has triangles
+    bool life = false;         // some are born or die
+    bool liveSprings = false;  // their numbers may change while it runs (CompileOptions)
+    bool steers = false;       // they school
+    bool avoids = false;       // and turn from colliders
 };
 
 struct KernelText {
@@ -73,6 +73,14 @@ bool countsMuscles(const Needs& needs);
 std::vector<size_t> sweepOrder(const Molecule& molecule);
 
 constexpr int stateWidth = 1024;  // texels of a row of state textures
+constexpr int stateRows(size_t texels) {
+    return int((texels + stateWidth - 1) / stateWidth);
+}
+// Textures of so many numbered texels have rows of 2^n of them, and are as wide as high or half as high;
+// returns n.
+constexpr int rowBits(size_t numbers) {
+    return (int(std::bit_width(numbers - 1)) + 1) / 2;
+}
 
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {

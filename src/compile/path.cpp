@@ -1,9 +1,11 @@
 #include "compile/path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "compile/corotated.h"
+#include "compile/passes.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -14,7 +16,7 @@ namespace {
 void checkTextures(const Plan& plan, const PathLimits& limits) {
     int64_t rows = 0;
     for (const GroupPlan& group : plan.groups) {
-        const int64_t own = group.texture.rows, vertices = group.vertexCount;
+        const int64_t vertices = group.vertexCount, own = vertices * stateRows(size_t(group.count));
         if (rows + own > limits.maxTextureSize) {
             const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
             throw Error(
@@ -29,32 +31,36 @@ void checkTextures(const Plan& plan, const PathLimits& limits) {
     }
 }
 
-// Fragments and passes read these tables from textures.
+// Fragments and passes read these tables from textures. A distance field's samples grow with the cube of its
+// resolution.
 void checkTables(const Plan& plan, const PathLimits& limits) {
-    const auto check = [&](int rows, const char* what) {
-        if (rows > limits.maxTextureSize)
-            throw Error(concat(what, " need a texture of ", rows, " rows; this context holds ",
-                               limits.maxTextureSize));
-    };
-    check(plan.topologyRows, "the molecules' springs and triangles");
-    check(plan.sampleRows, "the grids and height fields");
+    const size_t most = size_t(limits.maxTextureSize) * stateWidth;
+    if (plan.topology.size() > most)
+        throw Error(concat("the molecules' springs and triangles take ", plan.topology.size(),
+                           " texels, and a table of this context holds ", most));
+    if (plan.samples.size() > most)
+        throw Error(concat("grids, height fields and distance fields have ", plan.samples.size(),
+                           " samples, and a table of this context holds ", most,
+                           ": distance fields alone would fit at ",
+                           std::floor(95 * std::cbrt(double(most) / double(plan.samples.size()))),
+                           " % of their resolutions"));
 }
 
 // Contact in fragment shaders has tables of its own.
 void checkContact(const Plan& plan, const PathLimits& limits) {
     const ContactPlan& contact = plan.contact;
-    constexpr int targets = ContactPlan::fragmentList / 4 + 1;
+    constexpr int targets = contactsInFragments / 4 + 1;
     if (contact.any() && limits.targets < targets)
         throw Error(contact.settings.location,
                     concat("contact between molecules draws into ", targets,
                            " textures at once; this context allows ", limits.targets));
-    if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
-    int bits = contact.tableBits;
-    while (1 << ((bits + 1) / 2) > limits.maxTextureSize)
-        --bits;
+    size_t cells = contact.cells();
+    while (1 << rowBits(cells) > limits.maxTextureSize)
+        cells /= 2;
+    if (cells == contact.cells()) return;
     throw Error(contact.settings.location,
                 concat("contact between ", contact.spheres,
-                       " spheres is more than the textures of this context hold: at most ", 1 << (bits - 1)));
+                       " spheres is more than the textures of this context hold: at most ", cells / 2));
 }
 
 void checkPingPong(const Plan& plan, const PathLimits& limits) {
@@ -76,6 +82,7 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
                 plan.groups[group.group].location,
                 concat(group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
                        ", which \"", plan.groups[group.group].name, "\" asks for, needs the fused path"));
+    checkTables(plan, limits);
     checkContact(plan, limits);
     checkTextures(plan, limits);
 }
@@ -131,6 +138,7 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     if (limits.targets < fewest)
         throw Error(concat("fragments draw into ", fewest, " textures at once; this context allows ",
                            limits.targets));
+    checkTables(plan, limits);
     checkContact(plan, limits);
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
@@ -165,7 +173,6 @@ Path path(const std::string& word) {
 }
 
 PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits, Lanes lanes) {
-    checkTables(plan, limits);
     if (wanted == Path::pingPong) {
         if (lanes != Lanes::automatic) throw Error("lanes are of the fused path, not of ping-pong");
         checkPingPong(plan, limits);
@@ -258,7 +265,7 @@ static size_t layerBytes(const Plan& plan, bool drawn) {
                            (group.needs.scale || group.needs.phase ? 1 : 0) +
                            (drawn && group.needs.normals ? layout.positionElements() : 0) +
                            (group.needs.steers ? 2 * steeringElements : 0);
-        texels += size_t(layers) * stateWidth * size_t((group.count + stateWidth - 1) / stateWidth);
+        texels += size_t(layers) * stateWidth * size_t(stateRows(size_t(group.count)));
     }
     return texels * sizeof(glm::vec4);
 }
@@ -266,13 +273,16 @@ static size_t layerBytes(const Plan& plan, bool drawn) {
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
     if (path == Path::pingPong) {
         bool acceleration = false, normals = false, stages = false;
+        size_t rows = 0, recordRows = 0;
         for (const GroupPlan& group : plan.groups) {
-            acceleration |= group.needs.acceleration;
+            recordRows += size_t(stateRows(size_t(group.count)));
+            rows += size_t(group.vertexCount) * size_t(stateRows(size_t(group.count)));
+            acceleration |= keepsAcceleration(group);
             normals |= group.needs.normals;
             stages |= solver(group.solver).rungeKutta();
         }
         const size_t textures = 4 + (acceleration ? 2 : 0) + (stages ? 8 : 0) + (normals ? 1 : 0);
-        return (textures * size_t(plan.rows) + 3 * size_t(plan.recordRows)) * stateWidth * sizeof(glm::vec4);
+        return (textures * rows + 3 * recordRows) * stateWidth * sizeof(glm::vec4);
     }
     if (path == Path::fragments) return layerBytes(plan, drawn);
     size_t elements = 0;
@@ -285,6 +295,16 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
         elements += layout.padded(size_t(group.count)) * (state + normals + 1 + constants + steering);
     }
     return elements * sizeof(glm::vec4);
+}
+
+size_t tableBytes(const Plan& plan, Path path) {
+    const auto texels = [&](const std::vector<glm::vec4>& table) {
+        return path == Path::fused ? table.size() : size_t(stateRows(table.size())) * stateWidth;
+    };
+    size_t tiles = 0;
+    for (const NoiseTile& tile : plan.fields.noiseTiles)
+        tiles += tile.bytes();
+    return (texels(plan.topology) + texels(plan.samples)) * sizeof(glm::vec4) + tiles;
 }
 
 }  // namespace shoal

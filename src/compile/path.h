@@ -39,6 +39,10 @@ struct PathLimits {
     std::array<std::string, 4> wrong = {};
 };
 
+// In fragments and in passes so many spheres may touch one: with what else a pass draws, these fit the 8 draw
+// buffers that OpenGL 3.3 promises.
+constexpr int contactsInFragments = 24;
+
 struct PathChoice {
     Path path = Path::fused;
     std::string why;                 // for people: why not another
@@ -59,6 +63,8 @@ void checkVertices(const Scene& scene, Path wanted, const PathLimits& limits);
 // Bytes on the device: positions, velocities, records and constants, all sides; normals where something is
 // drawn.
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace = false);
+// Likewise of the tables: topology, samples and tiles.
+size_t tableBytes(const Plan& plan, Path path);
 
 // For people: groups, passes and why each is there, memory.
 std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace = false);

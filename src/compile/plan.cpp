@@ -50,11 +50,6 @@ Needs findNeeds(const Scene& scene, const Group& group, const CompileOptions& op
     return needs;
 }
 
-// Without a sum that could overflow.
-int slabRows(int count) {
-    return (count - 1) / stateWidth + 1;
-}
-
 // The group's own name, else its molecule's, numbered where that is taken.
 std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     const std::string name = group.name.empty() ? group.molecule.name : group.name;
@@ -67,8 +62,8 @@ int placesOf(const Group& group) {
     return group.life ? group.life->capacity : group.count;
 }
 
-// Plans a group: its needs and numbers, and its rows in the textures.
-GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options, Plan& plan) {
+// Plans a group: its needs and numbers.
+GroupPlan planGroup(const Scene& scene, size_t index, const CompileOptions& options, const Plan& plan) {
     const Group& group = scene.groups[index];
     GroupPlan out;
     out.name = uniqueName(group, index, plan);
@@ -105,13 +100,6 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
         life.atStart = group.count;
         life.seed = hash(uint32_t(scene.seed), uint32_t(scene.seed >> 32), uint32_t(index));
     }
-    TextureLayout& texture = out.texture;
-    texture.slabRows = slabRows(out.count);
-    texture.firstRow = plan.rows;
-    texture.rows = out.vertexCount * texture.slabRows;
-    texture.firstRecordRow = plan.recordRows;
-    plan.rows += texture.rows;
-    plan.recordRows += texture.slabRows;
     return out;
 }
 
@@ -148,42 +136,6 @@ void planLives(const Scene& scene, Plan& plan) {
     }
 }
 
-void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
-    const Needs& needs = group.needs;
-    const auto add = [&](PassKind kind, PassPlan::When when, std::string why) {
-        plan.passes.push_back({kind, index, when, std::move(why)});
-    };
-    using When = PassPlan::When;
-    if (needs.records)
-        add(PassKind::records, When::frameStart,
-            needs.release ? "pins may be released, and anchors follow what flies"
-                          : "anchors follow what moves");
-    if (needs.springs && group.solver == SolverKind::leapfrog)
-        add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
-    const int stages = shoal::solver(group.solver).tableau.stages;
-    // symmetrically where the solver is: half before and half after the rest of a substep
-    const bool halves = needs.thrust && shoal::solver(group.solver).order > 1;
-    if (needs.thrust) add(PassKind::thrust, When::substep, "a thrust pushes along the velocity");
-    if (needs.springs && shoal::solver(group.solver).order == 1)
-        add(PassKind::restore, When::substep, "the molecule has springs");
-    if (needs.directionalDrag && stages == 0)
-        add(PassKind::normals, When::substep, "drag differs across and along the surface");
-    add(stages > 0 ? PassKind::stage : PassKind::advect, When::substep,
-        concat(stages > 0 ? concat(stages, " times: ") : "", "moves every vertex",
-               needs.gravity ? " under gravity" : "",
-               needs.fields ? ", dragged by the fields"
-               : needs.drag ? ", with drag"
-                            : "",
-               needs.forces ? ", with forces" : "", needs.wind ? ", in the wind" : ""));
-    if (halves && stages > 0) add(PassKind::thrust, When::substep, "the other half of the thrust");
-    if (needs.collide) add(PassKind::collide, When::substep, "the scene has colliders");
-    if (needs.springs && group.solver == SolverKind::leapfrog)
-        add(PassKind::restore, When::substep, "the molecule has springs");
-    if (halves && stages == 0) add(PassKind::thrust, When::substep, "the other half of the thrust");
-    if (needs.normals) add(PassKind::normals, When::frameEnd, "drawn, or exported, with its normals");
-    add(PassKind::watch, When::frameEnd, "stops a run whose state is not finite or too fast");
-}
-
 // The colliders' parameters as they are for a group: what a surface does depends on what meets it.
 std::vector<glm::vec4> parametersOf(const Scene& scene, const GroupPlan& group,
                                     const GeneratedColliders& colliders) {
@@ -216,29 +168,10 @@ bool isLong(const Field& field) {
            (curl && curl->noise == NoiseForm::computed) || std::holds_alternative<GridField>(*field.shape);
 }
 
-int tableRows(std::vector<glm::vec4>& table) {
-    const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
-    table.resize(size_t(rows) * stateWidth);
-    return rows;
-}
-
 }  // namespace
-
-const char* name(PassKind kind) {
-    static constexpr const char* names[] = {"records", "normals", "thrust",  "restore",
-                                            "advect",  "stage",   "collide", "watch"};
-    return names[size_t(kind)];
-}
 
 bool Plan::hasLife() const {
     return std::any_of(groups.begin(), groups.end(), [](const GroupPlan& g) { return g.life.has_value(); });
-}
-
-size_t Plan::tableBytes() const {
-    size_t tiles = 0;
-    for (const NoiseTile& tile : fields.noiseTiles)
-        tiles += tile.bytes();
-    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4) + tiles;
 }
 
 // Placing takes memory here before any device is asked: of a molecule its record, constants and life, of a
@@ -275,7 +208,7 @@ void checkCounts(const Scene& scene) {
 
 namespace {
 
-// What a scene says of a step, and its groups with their needs, solvers and passes: nothing is placed, and no
+// What a scene says of a step, and its groups with their needs and solvers: nothing is placed, and no
 // distance field is read. Error: as checkPlan() before a baking.
 Plan planGroups(const Scene& scene, const CompileOptions& options) {
     checkCounts(scene);
@@ -294,18 +227,14 @@ Plan planGroups(const Scene& scene, const CompileOptions& options) {
     plan.colliderCount = scene.colliders.size();
     plan.jointContact = respondTogether(scene.colliders);
     for (size_t i = 0; i < scene.groups.size(); ++i) {
-        GroupPlan group = layOut(scene, i, options, plan);
+        GroupPlan group = planGroup(scene, i, options, plan);
         if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
             plan.warnings.push_back(
                 {scene.groups[i].location,
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
         chooseSolver(scene, scene.groups[i], plan, group);
-        group.needs.acceleration =
-            group.needs.springs && (group.solver == SolverKind::leapfrog ||
-                                    (group.solver == SolverKind::euler && group.needs.collide));
         checkMuscles(scene, scene.groups[i], plan.warnings);
-        listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }
     return plan;
@@ -344,7 +273,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     Plan plan = planGroups(scene, options);
     for (GroupPlan& group : plan.groups)
         fill(group, scene, plan);
-    plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
     plan.school = planSchools(scene, plan.groups);
     warnOf(scene, plan);
@@ -375,7 +303,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
             group.colliderParameters = parametersOf(scene, group, plan.colliders);
     planLives(scene, plan);
     warnOfBooks(plan);
-    plan.sampleRows = tableRows(plan.samples);
     return plan;
 }
 

@@ -6,8 +6,7 @@
 //   fused       buffers, in blocks of 16 molecules      simulate/buffer_state.h
 //   fragments   layers of textures, a texel a molecule  simulate/layer_state.h
 //
-// Topology, for the paths that read it from a table: one texture of 4-vectors, read by index i at
-// (i mod 1024, i / 1024); per group from `base`:
+// Topology, for the paths that read it from a table: 4-vectors, of all groups; per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
 //   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), its share of the molecule's
 //   base + 2 vertexCount + t       the corners of triangle t
@@ -37,13 +36,6 @@
 
 namespace shoal {
 
-// Where a group lies in the ping-pong path's textures.
-struct TextureLayout {
-    int slabRows = 0;            // rows of one vertex slab
-    int firstRow = 0, rows = 0;  // in the state textures
-    int firstRecordRow = 0;      // in the record textures; slabRows of them
-};
-
 struct GroupPlan {
     std::string name;
     Location location;  // of the group in the scene file, for messages
@@ -51,7 +43,6 @@ struct GroupPlan {
     int count = 0;      // places, where some are born or die
     int vertexCount = 0, springCount = 0, triangleCount = 0;
     int skinTriangleCount = 0;  // 0: its own triangles are drawn
-    TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
     SolverKind solver = SolverKind::leapfrog;
@@ -90,16 +81,6 @@ struct GroupPlan {
 
 float largestScale(const GroupPlan& group);  // of the rest lengths
 
-enum class PassKind { records, normals, thrust, restore, advect, stage, collide, watch };
-const char* name(PassKind kind);
-
-struct PassPlan {
-    PassKind kind;
-    size_t group = 0;
-    enum class When { frameStart, substep, frameEnd } when = When::substep;
-    std::string why;
-};
-
 struct Plan {
     std::string sceneName;
     double frameRate = 60;
@@ -108,30 +89,23 @@ struct Plan {
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     std::vector<Force> forces;  // as in the scene
     std::vector<GroupPlan> groups;
-    ContactPlan contact;           // of molecules with one another
-    SchoolPlan school;             // of those that steer by one another
-    std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat
-
-    int rows = 0, recordRows = 0;  // of the ping-pong path's textures
+    ContactPlan contact;  // of molecules with one another
+    SchoolPlan school;    // of those that steer by one another
     std::vector<glm::vec4> topology;
-    int topologyRows = 0;
 
     // Fields and colliders become straight-line GLSL that reads its numbers from uniform arrays, so that
-    // changing a number never compiles. Samples (grids, height fields) share one texture of 4-vectors, read
-    // by index like the topology.
+    // changing a number never compiles. Samples (grids, height fields) share one table of 4-vectors.
     GeneratedFields fields;        // generated/fields.glsl
     GeneratedColliders colliders;  // generated/colliders.glsl; the parameters are those of each group
     size_t fieldCount = 0, colliderCount = 0;
     bool jointContact = false;  // colliders answer together (compile/generate.h)
     bool longFields = false;    // computed noise, grids or many waves: too much text to repeat
     std::vector<glm::vec4> samples;
-    int sampleRows = 0;
     std::vector<std::string> grids;  // what each field's grid and each tile takes, for people
 
     std::vector<Warning> warnings;
 
-    bool hasLife() const;       // in some group some are born or die
-    size_t tableBytes() const;  // topology, samples and tiles
+    bool hasLife() const;  // in some group some are born or die
 };
 
 struct CompileOptions {

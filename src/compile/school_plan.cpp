@@ -153,13 +153,6 @@ class Planner {
 
 }  // namespace
 
-int SchoolPlan::keyBits() const {
-    int bits = 0;
-    while ((1 << bits) < keys)
-        ++bits;
-    return bits;
-}
-
 const SchoolBodies& SchoolPlan::bodiesOf(size_t group) const {
     return *std::find_if(bodies.begin(), bodies.end(),
                          [group](const SchoolBodies& one) { return one.group == group; });

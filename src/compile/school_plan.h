@@ -54,7 +54,6 @@ struct SchoolPlan {
     glm::dvec3 origin{0};  // m, near which they are: places count from here
 
     bool any() const { return !members.empty(); }
-    int keyBits() const;
     const SchoolBodies& bodiesOf(size_t group) const;
     const SchoolMember* memberOf(size_t group) const;  // null: it does not steer
 };

@@ -11,10 +11,7 @@ namespace shoal {
 
 static constexpr int lanes = 64;
 
-StateReader::StateReader(const GroupPlan& plan, size_t group)
-    : index(group),
-      rows(plan.texture.firstRow, plan.texture.slabRows, plan.texture.firstRecordRow, 0),
-      layout(plan.layout()) {}
+StateReader::StateReader(const GroupPlan& plan, size_t group) : index(group), layout(plan.layout()) {}
 
 std::vector<std::string> StateReader::defines(const StateView& state) const {
     if (!state.textures) return layout.defines(state.layers != nullptr);
@@ -30,7 +27,8 @@ void StateReader::bind(const gpu::Program& program, const StateView& state,
         program.texture("records", textures.record.read(index));
         program.texture("constants", textures.constant);
         if (textures.normal) program.texture("normals", textures.normal);
-        program.set("groupRows", rows);
+        const TextureState::Rows& rows = textures.rowsOf(index);
+        program.set("groupRows", glm::ivec4(rows.firstRow, rows.slabRows, rows.firstRecordRow, 0));
         return;
     }
     if (state.layers) {

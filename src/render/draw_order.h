@@ -34,8 +34,7 @@ namespace shoal {
 
 // How programs that draw or order the molecules of a group reach its state, on any path.
 struct StateReader {
-    size_t index;     // of the group in the plan
-    glm::ivec4 rows;  // of the textures: first state row, rows of a slab, first record row
+    size_t index;  // of the group in the plan
     BufferLayout layout;
 
     StateReader(const GroupPlan& plan, size_t group);

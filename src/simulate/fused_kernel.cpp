@@ -79,7 +79,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.push_back(concat("SPHERES ", contact->spheresOf));
         define(remembers, "REMEMBERS");
         define(remembers && !options.targets && plan.contact.mayRest(group), "RESTING");
-        if (options.targets) out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
+        if (options.targets)
+            out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
     }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");

@@ -21,7 +21,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(needs.forces, "FORCES");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.springs, "SPRINGS");
-    define(needs.acceleration, "ACCELERATION");
+    define(keepsAcceleration(group), "ACCELERATION");
     define(needs.springDamping, "SPRING_DAMPING");
     if (const Solver& solver = shoal::solver(group.solver); solver.rungeKutta())
         out.push_back(concat("STAGES ", solver.tableau.stages));
@@ -58,7 +58,7 @@ class VertexTexels : public ContactState {
             gpu::ProgramOptions options;
             options.vertex = "passes/fullscreen.vert";
             options.fragment = "passes/touched.frag";
-            options.defines = {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())};
+            options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))};
             if (group.needs.pins) options.defines.emplace_back("PINS");
             if (group.needs.release) options.defines.emplace_back("RELEASE");
             options.label = concat("contact apply of ", group.name);
@@ -70,7 +70,7 @@ class VertexTexels : public ContactState {
     std::vector<std::string> defines(size_t) const override { return {}; }
     std::vector<Part> parts(size_t group) const override { return {{0, plan_->groups[group].count}}; }
     void bind(const Program& program, size_t group, size_t) override {
-        setGroup(program, plan_->groups[group]);
+        state_->setGroup(program, group);
         if (program.uses("topology")) program.texture("topology", tables_->topology);
         program.texture("positions", state_->position.read(group));
         program.texture("velocities", state_->velocity.read(group));
@@ -78,14 +78,14 @@ class VertexTexels : public ContactState {
         program.texture("constants", state_->constant);
     }
     void apply(size_t group, const Gains& gains) override {
-        const TextureLayout& at = plan_->groups[group].texture;
+        const TextureState::Rows& rows = state_->rowsOf(group);
         const Program& program = apply_[group];
         program.use();
         bind(program, group, 0);
         gains(program);
         const gpu::Framebuffer& target =
             state_->target({&state_->position.write(group), &state_->velocity.write(group)});
-        target.bind(0, at.firstRow, target.width(), at.rows);
+        target.bind(0, rows.firstRow, target.width(), rows.rows);
         gpu::drawVertices(3);
         state_->position.flip(group);
         state_->velocity.flip(group);
@@ -104,55 +104,64 @@ PingPong::PingPong(gpu::Context& context, const Plan& plan, const Tables& tables
                    const SimulationOptions& options)
     : state(context, plan), plan_(&plan), tables_(&tables), drawn_(options.drawn) {
     if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
-    programs_.resize(plan.groups.size());
-    for (const PassPlan& pass : plan.passes) {
-        const Program*& program = programs_[pass.group][size_t(pass.kind)];
-        if (program || (pass.kind == PassKind::watch && !options.watchdog)) continue;
-        gpu::ProgramOptions wanted;
-        wanted.vertex = "passes/fullscreen.vert";
-        wanted.fragment = concat("passes/", name(pass.kind), ".frag");
-        wanted.defines = defines(plan.groups[pass.group]);
-        if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
-        if (plan.contact.remembers() && plan.contact.of(pass.group))
-            wanted.defines.insert(wanted.defines.end(),
-                                  {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
-        if (const ContactGroup* contact = plan.contact.of(pass.group))
-            for (const std::string& one : contact->defines())
-                wanted.defines.push_back(one);
-        wanted.generated = {{"generated/fields.glsl", plan.fields.source},
-                            {"generated/stages.glsl", plan.groups[pass.group].kernel.stages},
-                            {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
-                            {"generated/colliders.glsl", plan.colliders.source}};
-        wanted.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
-        program = &made_.get(context, wanted, setOnceFor(plan.groups[pass.group]));
-        program->use();
-        if (program->uses("colliderParameters"))
-            program->set("colliderParameters",
-                         std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        passes_.push_back(passesOf(plan.groups[g]));
+        programs_.emplace_back();
+        for (const Pass& pass : passes_[g]) {
+            const Program*& program = programs_[g][size_t(pass.kind)];
+            if (!program && (pass.kind != PassKind::watch || query_))
+                program = &makeProgram(context, pass.kind, g);
+        }
     }
     if (!plan.contact.any()) return;
     contactState_ = std::make_unique<VertexTexels>(context, plan, tables, state);
     contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_);
 }
 
+const Program& PingPong::makeProgram(gpu::Context& context, PassKind kind, size_t index) {
+    const Plan& plan = *plan_;
+    const GroupPlan& group = plan.groups[index];
+    gpu::ProgramOptions wanted;
+    wanted.vertex = "passes/fullscreen.vert";
+    wanted.fragment = concat("passes/", name(kind), ".frag");
+    wanted.defines = defines(group);
+    if (kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
+    if (const ContactGroup* contact = plan.contact.of(index)) {
+        if (plan.contact.remembers())
+            wanted.defines.insert(wanted.defines.end(),
+                                  {"REMEMBERS", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
+        for (const std::string& one : contact->defines())
+            wanted.defines.push_back(one);
+    }
+    wanted.generated = {{"generated/fields.glsl", plan.fields.source},
+                        {"generated/stages.glsl", group.kernel.stages},
+                        {"generated/scene_forces.glsl", group.forces.source},
+                        {"generated/colliders.glsl", plan.colliders.source}};
+    wanted.label = concat(name(kind), " of ", group.name);
+    const Program& program = made_.get(context, wanted, setOnceFor(group));
+    program.use();
+    if (program.uses("colliderParameters"))
+        program.set("colliderParameters", std::span<const glm::vec4>(group.colliderParameters));
+    return program;
+}
+
 void PingPong::computeNormals(gpu::PassTimers& timers) {
     if (!drawn_) return;
     gpu::drawPlainly();
     const Frame still;
-    for (const PassPlan& pass : plan_->passes)
-        if (pass.kind == PassKind::normals && pass.when == PassPlan::When::frameEnd)
-            runPass(pass, {0, 0, true, still}, timers);
+    run(Pass::When::frameEnd, {0, 0, true, still}, timers);
 }
 
-void PingPong::run(PassPlan::When when, const Step& step, gpu::PassTimers& timers) {
-    for (const PassPlan& pass : plan_->passes)
-        if (pass.when == when && pass.kind != PassKind::watch) runPass(pass, step, timers);
+void PingPong::run(Pass::When when, const Step& step, gpu::PassTimers& timers) {
+    for (size_t g = 0; g < passes_.size(); ++g)
+        for (const Pass& pass : passes_[g])
+            if (pass.when == when && pass.kind != PassKind::watch) runPass(g, pass, step, timers);
 }
 
 void PingPong::runSubsteps(const Frame& frame, gpu::PassTimers& timers) {
-    run(PassPlan::When::frameStart, {frame.time, frame.h, true, frame}, timers);
+    run(Pass::When::frameStart, {frame.time, frame.h, true, frame}, timers);
     for (int i = 0; i < frame.parameters.substeps; ++i)
-        run(PassPlan::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame}, timers);
+        run(Pass::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame}, timers);
 }
 
 void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
@@ -164,8 +173,7 @@ void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
         if (contact_) contact_->step(piece, timers);
     }
     if (drawn_)
-        run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame},
-            timers);
+        run(Pass::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame}, timers);
     if (query_) watch(timers);
 }
 
@@ -173,45 +181,43 @@ void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
 // read, with its colours masked.
 void PingPong::watch(gpu::PassTimers& timers) {
     const RunawayQuery::Asking asking(*query_);
-    for (const PassPlan& pass : plan_->passes) {
-        if (pass.kind != PassKind::watch) continue;
-        const auto timer = timers.time(name(pass.kind));
-        const GroupPlan& group = plan_->groups[pass.group];
-        prepare(pass.kind, group, pass.group);
-        drawState(group, {&state.velocity.write(pass.group)});
+    for (size_t g = 0; g < passes_.size(); ++g) {
+        const auto timer = timers.time(name(PassKind::watch));
+        prepare(PassKind::watch, g);
+        drawState(g, {&state.velocity.write(g)});
     }
 }
 
-void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers) {
-    const GroupPlan& group = plan_->groups[pass.group];
+void PingPong::runPass(size_t index, const Pass& pass, const Step& step, gpu::PassTimers& timers) {
+    const GroupPlan& group = plan_->groups[index];
     const auto timer = timers.time(name(pass.kind));
     switch (pass.kind) {
     case PassKind::records:
-        return records(group, pass.group, step);
+        return records(group, index, step);
     case PassKind::normals:
-        return normals(group, pass.group, step, pass.when == PassPlan::When::substep);
+        return normals(group, index, step, pass.when == Pass::When::substep);
     case PassKind::thrust:
-        return thrust(group, pass.group, step);
+        return thrust(group, index, step);
     case PassKind::restore:
-        return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
+        return restore(group, index, step, pass.when == Pass::When::frameStart);
     case PassKind::advect:
-        return advect(group, pass.group, step);
+        return advect(group, index, step);
     case PassKind::stage:
         for (int s = 0; s < solver(group.solver).tableau.stages; ++s)
-            stage(group, pass.group, step, s);
+            stage(group, index, step, s);
         return;
     case PassKind::collide:
-        return collide(group, pass.group, step);
+        return collide(group, index, step);
     case PassKind::watch:  // not one by one
         return;
     }
 }
 
 // Binds what every pass reads: the group's place, its state and the tables.
-const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
+const Program& PingPong::prepare(PassKind kind, size_t index) {
     const Program& program = *programs_[index][size_t(kind)];
     program.use();
-    setGroup(program, group);
+    state.setGroup(program, index);
     program.texture("positions", state.position.read(index));
     program.texture("velocities", state.velocity.read(index));
     if (state.acceleration) program.texture("accelerations", state.acceleration.read(index));
@@ -247,28 +253,28 @@ void PingPong::setParameters(const Program& program, const GroupPlan& group, con
                     std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
 }
 
-void PingPong::draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets) {
-    state.target(targets).bind(0, firstRow, std::min(stateWidth, group.count), rows);
+void PingPong::draw(size_t index, int firstRow, int rows, const Targets& targets) {
+    state.target(targets).bind(0, firstRow, std::min(stateWidth, plan_->groups[index].count), rows);
     gpu::drawVertices(3);
 }
 
-void PingPong::drawState(const GroupPlan& group, const Targets& targets) {
-    draw(group, group.texture.firstRow, group.texture.rows, targets);
+void PingPong::drawState(size_t index, const Targets& targets) {
+    draw(index, state.rowsOf(index).firstRow, state.rowsOf(index).rows, targets);
 }
 
-void PingPong::drawVelocity(const GroupPlan& group, size_t index) {
-    drawState(group, {&state.velocity.write(index)});
+void PingPong::drawVelocity(size_t index) {
+    drawState(index, {&state.velocity.write(index)});
     state.velocity.flip(index);
 }
 
-void PingPong::drawMotion(const GroupPlan& group, size_t index) {
-    drawState(group, {&state.position.write(index), &state.velocity.write(index)});
+void PingPong::drawMotion(size_t index) {
+    drawState(index, {&state.position.write(index), &state.velocity.write(index)});
     state.position.flip(index);
     state.velocity.flip(index);
 }
 
 void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
-    const Program& program = prepare(PassKind::records, group, index);
+    const Program& program = prepare(PassKind::records, index);
     if (group.needs.release) {
         const ReleaseLimits limits = releaseLimits(group, step.frame);
         setSprings(program, group, step, 0);
@@ -277,40 +283,41 @@ void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
         program.set("releaseChance", limits.chance);
         program.set("frame", step.frame.number);
     }
-    draw(group, group.texture.firstRecordRow, group.texture.slabRows, {&state.record.write(index)});
+    const TextureState::Rows& rows = state.rowsOf(index);
+    draw(index, rows.firstRecordRow, rows.slabRows, {&state.record.write(index)});
     state.record.flip(index);
 }
 
 void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, bool ahead) {
-    const Program& program = prepare(PassKind::normals, group, index);
+    const Program& program = prepare(PassKind::normals, index);
     const bool halfDrift = ahead && group.solver == SolverKind::leapfrog;
     program.set("aheadTime", float(halfDrift ? step.h / 2 : 0));
-    drawState(group, {&state.normal});
+    drawState(index, {&state.normal});
 }
 
 void PingPong::thrust(const GroupPlan& group, size_t index, const Step& step) {
-    const Program& program = prepare(PassKind::thrust, group, index);
+    const Program& program = prepare(PassKind::thrust, index);
     setParameters(program, group, step);
     program.set("whole", int(shoal::solver(group.solver).order == 1));
-    drawVelocity(group, index);
+    drawVelocity(index);
 }
 
 void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
-    const Program& program = prepare(PassKind::restore, group, index);
+    const Program& program = prepare(PassKind::restore, index);
     const bool leapfrog = group.solver == SolverKind::leapfrog, atEnd = leapfrog && !frameStart;
     setSprings(program, group, step, atEnd ? step.h / 2 : 0);
     program.set("springTime", float(step.time - step.frame.time + (atEnd ? step.h : 0)));
     program.set("kickTime", float(frameStart ? 0 : leapfrog ? step.h / 2 : step.h));
-    if (!group.needs.acceleration) return drawVelocity(group, index);
+    if (!keepsAcceleration(group)) return drawVelocity(index);
     Targets targets = {&state.acceleration.write(index)};
     if (!frameStart) targets.push_back(&state.velocity.write(index));
-    drawState(group, targets);
+    drawState(index, targets);
     state.acceleration.flip(index);
     if (!frameStart) state.velocity.flip(index);
 }
 
 void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
-    const Program& program = prepare(PassKind::advect, group, index);
+    const Program& program = prepare(PassKind::advect, index);
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     setParameters(program, group, step);
     program.set("time", float(step.time - step.frame.time));
@@ -321,7 +328,7 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     program.set("phi", drag.phi);
     program.set("slips", int(drag.slips));
     program.set("moveAnchors", int(step.first && group.needs.records));
-    drawMotion(group, index);
+    drawMotion(index);
 }
 
 // Stage s of a substep reads side s - 1 of the stages, or the state, and writes side s, or the new state.
@@ -330,12 +337,12 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     const Texture& position = s == 0 ? state.position.read(index) : state.stagePosition[read];
     const Texture& velocity = s == 0 ? state.velocity.read(index) : state.stageVelocity[read];
     if (group.needs.directionalDrag) {
-        const Program& normals = prepare(PassKind::normals, group, index);
+        const Program& normals = prepare(PassKind::normals, index);
         normals.texture("positions", position);
         normals.set("aheadTime", 0.0f);
-        drawState(group, {&state.normal});
+        drawState(index, {&state.normal});
     }
-    const Program& program = prepare(PassKind::stage, group, index);
+    const Program& program = prepare(PassKind::stage, index);
     if (group.needs.springs) setSprings(program, group, step, 0);
     if (s == 0) setParameters(program, group, step);
     program.texture("positions", position);
@@ -353,7 +360,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
                 glm::vec2(group.drag.normal, group.drag.tangent) * float(step.frame.parameters.drag));
     program.set("moveAnchors", int(step.first && group.needs.records));
     const bool last = s + 1 == solver(group.solver).tableau.stages;
-    drawState(group, {last ? &state.position.write(index) : &state.stagePosition[write],
+    drawState(index, {last ? &state.position.write(index) : &state.stagePosition[write],
                       last ? &state.velocity.write(index) : &state.stageVelocity[write],
                       &state.sumVelocity[write], &state.sumAcceleration[write]});
     if (!last) return;
@@ -362,7 +369,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
 }
 
 void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
-    const Program& program = prepare(PassKind::collide, group, index);
+    const Program& program = prepare(PassKind::collide, index);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
@@ -372,7 +379,7 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     if (!plan_->colliders.moving.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
     setParameters(program, group, step);
-    drawMotion(group, index);
+    drawMotion(index);
 }
 
 }  // namespace shoal

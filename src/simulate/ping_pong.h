@@ -1,6 +1,6 @@
 // The ping-pong path (OpenGL 3.3): fragment passes over state textures, read one side, draw into the other,
-// swap. Layout: simulate/texture_state.h. The passes of a frame: Plan::passes. Contact between molecules cuts
-// the frame into contact steps: some of its substeps, then the passes of contact
+// swap. Layout: simulate/texture_state.h. The passes of a frame: compile/passes.h. Contact between molecules
+// cuts the frame into contact steps: some of its substeps, then the passes of contact
 // (simulate/contact/contact.h).
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/passes.h"
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "gpu/pass_timers.h"
@@ -31,15 +32,13 @@ class PingPong : public ExecutionPath {
     void computeNormals(gpu::PassTimers& timers) override;
     StateView view() const override { return {.textures = &state}; }
     void write(size_t group, const GroupState& groupState, double) override {
-        state.write(plan_->groups[group], group, groupState);
+        state.write(group, groupState);
     }
-    GroupState read(size_t group) const override { return state.read(plan_->groups[group], group); }
+    GroupState read(size_t group) const override { return state.read(group); }
     GroupState readOne(size_t group, size_t molecule) const override {
-        return state.readOne(plan_->groups[group], group, molecule);
+        return state.readOne(group, molecule);
     }
-    std::vector<glm::vec3> readNormals(size_t group) const override {
-        return state.readNormals(plan_->groups[group]);
-    }
+    std::vector<glm::vec3> readNormals(size_t group) const override { return state.readNormals(group); }
     std::optional<int> framesSinceAlarm(bool) override {
         return query_ ? query_->framesSince() : std::nullopt;
     }
@@ -61,9 +60,9 @@ class PingPong : public ExecutionPath {
         bool first;   // of the frame
         const Frame& frame;
     };
-    void run(PassPlan::When when, const Step& step, gpu::PassTimers& timers);
+    void run(Pass::When when, const Step& step, gpu::PassTimers& timers);
     void runSubsteps(const Frame& frame, gpu::PassTimers& timers);  // and what is before them
-    void runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers);
+    void runPass(size_t index, const Pass& pass, const Step& step, gpu::PassTimers& timers);
     void records(const GroupPlan& group, size_t index, const Step& step);
     void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
     void thrust(const GroupPlan& group, size_t index, const Step& step);
@@ -73,20 +72,22 @@ class PingPong : public ExecutionPath {
     void collide(const GroupPlan& group, size_t index, const Step& step);
     void watch(gpu::PassTimers& timers);
 
-    const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
+    const gpu::Program& makeProgram(gpu::Context& context, PassKind kind, size_t index);
+    const gpu::Program& prepare(PassKind kind, size_t index);
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step,
                     double predictTime);
     void setParameters(const gpu::Program& program, const GroupPlan& group, const Step& step);
     using Targets = std::vector<gpu::ColorTarget>;
-    void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);
-    void drawState(const GroupPlan& group, const Targets& targets);
-    void drawVelocity(const GroupPlan& group, size_t index);  // into the other side, the current one then
-    void drawMotion(const GroupPlan& group, size_t index);    // position and velocity, likewise
+    void draw(size_t index, int firstRow, int rows, const Targets& targets);
+    void drawState(size_t index, const Targets& targets);
+    void drawVelocity(size_t index);  // into the other side, the current one then
+    void drawMotion(size_t index);    // position and velocity, likewise
 
     const Plan* plan_;
     const Tables* tables_;
     bool drawn_;
     gpu::Programs made_;
+    std::vector<std::vector<Pass>> passes_;                     // per group
     std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
     std::unique_ptr<RunawayQuery> query_;                       // null: not watched
     std::unique_ptr<ContactState> contactState_;

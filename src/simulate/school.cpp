@@ -22,12 +22,6 @@ size_t mostInTextures(const gpu::ContextInfo& info) {
     return std::min(side * side / 2 - 1, NetworkSort::most(info, NetworkSort::Kind::bitonic));
 }
 
-// Textures are as wide as high, or half as high.
-int rowBitsOf(const SchoolPlan& school) {
-    const int numbers = std::max({school.bodyCount, school.entries, school.keys + 1});
-    return (int(std::bit_width(unsigned(numbers - 1))) + 1) / 2;
-}
-
 }  // namespace
 
 BufferSchool::BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
@@ -48,7 +42,8 @@ void BufferSchool::findBodies(size_t index) {
 
 void BufferSchool::sortKeys() {
     arrays_.run(useKeys(), 0, school_->entries);
-    sort_.sort(arrays_.buffer("sorted"), size_t(school_->entries), school_->keyBits());
+    sort_.sort(arrays_.buffer("sorted"), size_t(school_->entries),
+               int(std::bit_width(unsigned(school_->keys - 1))));
     arrays_.settle();
 }
 
@@ -65,8 +60,9 @@ void BufferSchool::step(const Frame& frame, const std::vector<GroupBuffers>& sta
 }
 
 TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
-    : SchoolPasses(context, plan, tables, Form::textures, mostInTextures(context.info()),
-                   rowBitsOf(plan.school)),
+    : SchoolPasses(
+          context, plan, tables, Form::textures, mostInTextures(context.info()),
+          rowBits(size_t(std::max({plan.school.bodyCount, plan.school.entries, plan.school.keys + 1})))),
       sort_(context, NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_,
             NetworkSort::Ties::byIndex) {
     starts_ = Program(context, optionsOf("sort/starts", "school starts", nullptr));

@@ -5,24 +5,19 @@
 
 namespace shoal {
 
-static gpu::Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, int rows,
-                              const char* label) {
-    gpu::Texture texture(context, gpu::Format::rgba32f, stateWidth, rows, label);
-    texture.upload(gpu::Traffic::Kind::parameters, 0, 0, stateWidth, rows, table.data(),
-                   table.size() * sizeof(glm::vec4));
+// In rows, of which the last is seldom full; nothing where the table is empty.
+static gpu::Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, const char* label) {
+    if (table.empty()) return {};
+    gpu::Texture texture(context, gpu::Format::rgba32f, stateWidth, stateRows(table.size()), label);
+    const auto upload = [&](size_t row, size_t width, size_t rows) {
+        if (width * rows > 0)
+            texture.upload(gpu::Traffic::Kind::parameters, 0, int(row), int(width), int(rows),
+                           &table[row * stateWidth], width * rows * sizeof(glm::vec4));
+    };
+    const size_t full = table.size() / stateWidth;
+    upload(0, stateWidth, full);
+    upload(full, table.size() % stateWidth, 1);
     return texture;
-}
-
-// A distance field's samples grow with the cube of its resolution.
-static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
-    const int largest = context.info().maxTextureSize;
-    if (plan.sampleRows > largest)
-        throw Error(concat("grids, height fields and distance fields have ", plan.samples.size(),
-                           " samples, and a table of this context holds ", size_t(largest) * stateWidth,
-                           ": distance fields alone would fit at ",
-                           std::floor(95 * std::cbrt(double(largest) / plan.sampleRows)),
-                           " % of their resolutions"));
-    return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
 // A component of 10 bits is 512 + its number of units.
@@ -40,8 +35,8 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
     for (const NoiseTile& tile : plan.fields.noiseTiles)
         noiseTiles.push_back(makeTile(context, tile));
     if (form == Form::texture) {
-        topology = makeTable(context, plan.topology, plan.topologyRows, "topology");
-        samples = makeSamples(context, plan);
+        topology = makeTable(context, plan.topology, "topology");
+        samples = makeTable(context, plan.samples, "samples");
         return;
     }
     const std::span<const glm::vec4> entries(plan.topology);

@@ -1,5 +1,6 @@
 // Holds what every group of a plan shares and no frame changes: the topology of the molecules, the samples of
-// grids, height fields and distance fields, and the tiles of noise. Layout: compile/plan.h.
+// grids, height fields and distance fields, and the tiles of noise. Layout: compile/plan.h; a texture has
+// entry i of its table at (i mod 1024, i / 1024). Of a table without entries there is nothing.
 #pragma once
 
 #include <vector>
@@ -18,10 +19,10 @@ struct Tables {
 
     gpu::Texture topology, samples;  // as textures
     gpu::Buffer topologyBuffer, sampleBuffer;
-    gpu::BufferTexture sampleTexels;             // as a buffer; null: there are none
+    gpu::BufferTexture sampleTexels;             // as a buffer
     std::vector<gpu::VolumeTexture> noiseTiles;  // of the plan's
 
-    // Error: more samples than the context holds.
+    // Error: more samples than a buffer texture of the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form form);
 
     // Binds the samples and the tiles that a program reads, which is in use.

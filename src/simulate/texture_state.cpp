@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compile/passes.h"
 #include "core/error.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
@@ -17,8 +18,8 @@ static Texture makeTexture(gpu::Context& context, const Plan& plan, int rows, co
     try {
         return Texture(context, Format::rgba32f, stateWidth, rows, label);
     } catch (const gpu::OutOfMemory& error) {
-        const auto rowsOf = [](const GroupPlan& group) { return group.texture.rows; };
-        const GroupPlan& largest = *std::ranges::max_element(plan.groups, {}, rowsOf);
+        const auto vertices = [](const GroupPlan& group) { return group.count * group.vertexCount; };
+        const GroupPlan& largest = *std::ranges::max_element(plan.groups, {}, vertices);
         throw gpu::OutOfMemory(
             largest.location,
             concat(error.message(), ", for ", many(largest.count, "molecule", "molecules"), " here",
@@ -34,44 +35,52 @@ static TwoSided makeSides(gpu::Context& context, const Plan& plan, int rows, con
     return sides;
 }
 
-void setGroup(const gpu::Program& program, const GroupPlan& group) {
-    program.set("firstRow", group.texture.firstRow);
-    program.set("slabRows", group.texture.slabRows);
-    program.set("moleculeCount", group.count);
-    program.set("vertexCount", group.vertexCount);
-    program.set("firstRecordRow", group.texture.firstRecordRow);
-    program.set("topologyBase", group.topologyBase);
+void TextureState::setGroup(const gpu::Program& program, size_t group) const {
+    program.set("firstRow", rows_[group].firstRow);
+    program.set("slabRows", rows_[group].slabRows);
+    program.set("moleculeCount", plan_->groups[group].count);
+    program.set("vertexCount", plan_->groups[group].vertexCount);
+    program.set("firstRecordRow", rows_[group].firstRecordRow);
+    program.set("topologyBase", plan_->groups[group].topologyBase);
 }
 
-TextureState::TextureState(gpu::Context& context, const Plan& plan) : targets_(context) {
+static void uploadRows(Texture& texture, int firstRow, const std::vector<glm::vec4>& texels,
+                       Traffic::Kind kind = Traffic::Kind::state) {
+    texture.upload(kind, 0, firstRow, stateWidth, stateRows(texels.size()), texels.data(),
+                   texels.size() * sizeof(glm::vec4));
+}
+
+TextureState::TextureState(gpu::Context& context, const Plan& plan) : plan_(&plan), targets_(context) {
+    int rows = 0, recordRows = 0;
+    for (const GroupPlan& group : plan.groups) {
+        const int slab = stateRows(size_t(group.count));
+        rows_.push_back({slab, rows, group.vertexCount * slab, recordRows});
+        rows += rows_.back().rows;
+        recordRows += slab;
+    }
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
     };
-    position = makeSides(context, plan, plan.rows, "positions");
-    velocity = makeSides(context, plan, plan.rows, "velocities");
-    if (any(&Needs::acceleration)) acceleration = makeSides(context, plan, plan.rows, "accelerations");
+    position = makeSides(context, plan, rows, "positions");
+    velocity = makeSides(context, plan, rows, "velocities");
+    if (std::ranges::any_of(plan.groups, keepsAcceleration))
+        acceleration = makeSides(context, plan, rows, "accelerations");
     const bool stages = std::any_of(plan.groups.begin(), plan.groups.end(),
                                     [](const GroupPlan& group) { return solver(group.solver).rungeKutta(); });
     for (auto* pair : {&stagePosition, &stageVelocity, &sumVelocity, &sumAcceleration})
         for (Texture& texture : *pair)
-            if (stages) texture = makeTexture(context, plan, plan.rows, "stages");
-    record = makeSides(context, plan, plan.recordRows, "records");
-    if (any(&Needs::normals)) normal = makeTexture(context, plan, plan.rows, "normals");
-    constant = makeTexture(context, plan, plan.recordRows, "constants");
-    for (const GroupPlan& group : plan.groups) {
-        std::vector<glm::vec4> texels(size_t(group.texture.slabRows) * stateWidth);
-        const GroupConstants& c = group.constants;
+            if (stages) texture = makeTexture(context, plan, rows, "stages");
+    record = makeSides(context, plan, recordRows, "records");
+    if (any(&Needs::normals)) normal = makeTexture(context, plan, rows, "normals");
+    constant = makeTexture(context, plan, recordRows, "constants");
+    for (size_t g = 0; g < rows_.size(); ++g) {
+        std::vector<glm::vec4> texels(size_t(rows_[g].slabRows) * stateWidth);
+        const GroupConstants& c = plan.groups[g].constants;
         for (size_t m = 0; m < c.seeds.size(); ++m)
             texels[m] = glm::vec4(float(c.seeds[m]), c.scales[m], c.phases[m], 0);
-        constant.upload(Traffic::Kind::parameters, 0, group.texture.firstRecordRow, stateWidth,
-                        group.texture.slabRows, texels.data(), texels.size() * sizeof(glm::vec4));
+        uploadRows(constant, rows_[g].firstRecordRow, texels, Traffic::Kind::parameters);
     }
-}
-
-static void uploadRows(Texture& texture, int firstRow, int rows, const std::vector<glm::vec4>& texels) {
-    texture.upload(Traffic::Kind::state, 0, firstRow, stateWidth, rows, texels.data(),
-                   texels.size() * sizeof(glm::vec4));
 }
 
 static std::vector<glm::vec4> downloadRows(const Texture& texture, int firstRow, int rows) {
@@ -82,74 +91,69 @@ static std::vector<glm::vec4> downloadRows(const Texture& texture, int firstRow,
 }
 
 // Returns the texel of vertex v of molecule m, within the group's rows.
-static size_t texelOf(const GroupPlan& group, size_t m, size_t v) {
-    return (v * size_t(group.texture.slabRows) + m / stateWidth) * stateWidth + m % stateWidth;
+static size_t texelOf(const TextureState::Rows& group, size_t m, size_t v) {
+    return (v * size_t(group.slabRows) + m / stateWidth) * stateWidth + m % stateWidth;
 }
 
-// From index = molecule * vertexCount + vertex to the group's rows, and back.
-static std::vector<glm::vec4> asTexels(const GroupPlan& group, const std::vector<glm::vec3>& values) {
-    std::vector<glm::vec4> texels(size_t(group.texture.rows) * stateWidth);
-    const size_t vertices = size_t(group.vertexCount);
+void TextureState::upload(Texture& texture, size_t group, const std::vector<glm::vec3>& values) const {
+    const Rows& rows = rows_[group];
+    const size_t vertices = size_t(plan_->groups[group].vertexCount);
+    std::vector<glm::vec4> texels(size_t(rows.rows) * stateWidth);
     for (size_t i = 0; i < values.size(); ++i)
-        texels[texelOf(group, i / vertices, i % vertices)] = glm::vec4(values[i], 0);
-    return texels;
+        texels[texelOf(rows, i / vertices, i % vertices)] = glm::vec4(values[i], 0);
+    uploadRows(texture, rows.firstRow, texels);
 }
 
-static std::vector<glm::vec3> asVertices(const GroupPlan& group, const std::vector<glm::vec4>& texels) {
-    std::vector<glm::vec3> values;
-    const size_t vertices = size_t(group.vertexCount);
-    values.reserve(size_t(group.count) * vertices);
-    for (size_t m = 0; m < size_t(group.count); ++m)
-        for (size_t v = 0; v < vertices; ++v)
-            values.emplace_back(texels[texelOf(group, m, v)]);
+std::vector<glm::vec3> TextureState::download(const Texture& texture, size_t group) const {
+    const Rows& rows = rows_[group];
+    const std::vector<glm::vec4> texels = downloadRows(texture, rows.firstRow, rows.rows);
+    const size_t vertices = size_t(plan_->groups[group].vertexCount);
+    std::vector<glm::vec3> values(size_t(plan_->groups[group].count) * vertices);
+    for (size_t i = 0; i < values.size(); ++i)
+        values[i] = texels[texelOf(rows, i / vertices, i % vertices)];
     return values;
 }
 
-void TextureState::write(const GroupPlan& group, size_t index, const GroupState& state) {
-    const TextureLayout& at = group.texture;
-    uploadRows(position.current(index), at.firstRow, at.rows, asTexels(group, state.positions));
-    uploadRows(velocity.current(index), at.firstRow, at.rows, asTexels(group, state.velocities));
-    std::vector<glm::vec4> records(size_t(at.slabRows) * stateWidth);
+void TextureState::write(size_t group, const GroupState& state) {
+    upload(position.current(group), group, state.positions);
+    upload(velocity.current(group), group, state.velocities);
+    std::vector<glm::vec4> records(size_t(rows_[group].slabRows) * stateWidth);
     for (size_t m = 0; m < state.anchors.size(); ++m)
         records[m] = glm::vec4(state.anchors[m], float(state.released[m]));
-    uploadRows(record.current(index), at.firstRecordRow, at.slabRows, records);
+    uploadRows(record.current(group), rows_[group].firstRecordRow, records);
 }
 
-GroupState TextureState::read(const GroupPlan& group, size_t index) const {
-    const TextureLayout& at = group.texture;
+GroupState TextureState::read(size_t group) const {
     GroupState state;
-    state.positions = asVertices(group, downloadRows(position.read(index), at.firstRow, at.rows));
-    state.velocities = asVertices(group, downloadRows(velocity.read(index), at.firstRow, at.rows));
-    const auto records = downloadRows(record.read(index), at.firstRecordRow, at.slabRows);
-    for (size_t m = 0; m < size_t(group.count); ++m) {
+    state.positions = download(position.read(group), group);
+    state.velocities = download(velocity.read(group), group);
+    const auto records = downloadRows(record.read(group), rows_[group].firstRecordRow, rows_[group].slabRows);
+    for (size_t m = 0; m < size_t(plan_->groups[group].count); ++m) {
         state.anchors.emplace_back(records[m]);
         state.released.push_back(records[m].w > 0.5f);
     }
     return state;
 }
 
-GroupState TextureState::readOne(const GroupPlan& group, size_t index, size_t molecule) const {
+GroupState TextureState::readOne(size_t group, size_t molecule) const {
+    const Rows& rows = rows_[group];
     const auto texel = [&](const Texture& texture, int firstRow, size_t slab) {
         glm::vec4 out(0);
-        const size_t row = size_t(firstRow) + slab * size_t(group.texture.slabRows) + molecule / stateWidth;
+        const size_t row = size_t(firstRow) + slab * size_t(rows.slabRows) + molecule / stateWidth;
         texture.download(Traffic::Kind::state, int(molecule % stateWidth), int(row), 1, 1, &out, sizeof out);
         return out;
     };
     GroupState state;
-    for (size_t v = 0; v < size_t(group.vertexCount); ++v) {
-        state.positions.emplace_back(texel(position.read(index), group.texture.firstRow, v));
-        state.velocities.emplace_back(texel(velocity.read(index), group.texture.firstRow, v));
+    for (size_t v = 0; v < size_t(plan_->groups[group].vertexCount); ++v) {
+        state.positions.emplace_back(texel(position.read(group), rows.firstRow, v));
+        state.velocities.emplace_back(texel(velocity.read(group), rows.firstRow, v));
     }
-    const glm::vec4 own = texel(record.read(index), group.texture.firstRecordRow, 0);
+    const glm::vec4 own = texel(record.read(group), rows.firstRecordRow, 0);
     state.anchors.emplace_back(own);
     state.released.push_back(own.w > 0.5f);
-    const glm::vec4 look = texel(constant, group.texture.firstRecordRow, 0);
+    const glm::vec4 look = texel(constant, rows.firstRecordRow, 0);
     state.looks.emplace_back(look.y, look.z);
     return state;
-}
-
-std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
-    return asVertices(group, downloadRows(normal, group.texture.firstRow, group.texture.rows));
 }
 
 }  // namespace shoal

@@ -1,6 +1,6 @@
 // The ping-pong path's state: float textures, shared by all groups, one texel a vertex, RGBA32F.
 //
-//   a state texture is 1024 texels wide; group g owns the rows [firstRow, firstRow + vertexCount * slabRows)
+//   a state texture is 1024 texels wide; group g owns `rows` of them from `firstRow` on
 //   vertex v of molecule m:   x = m mod 1024,  y = firstRow + v * slabRows + m / 1024
 //   so vertex v of all molecules is a slab of whole rows, and neighbouring texels are neighbouring molecules
 //
@@ -28,9 +28,6 @@ namespace gpu {
 class Program;
 }
 
-// Sets where the group's data lies, for shaders/state/textures.glsl.
-void setGroup(const gpu::Program& program, const GroupPlan& group);
-
 // Two textures, of which each group has its own current side: a group that did not step is never stale.
 struct TwoSided {
     std::array<gpu::Texture, 2> side;
@@ -45,15 +42,25 @@ struct TwoSided {
 
 class TextureState {
   public:
+    // Borrows the plan. Error, located at the largest group: out of memory.
     TextureState(gpu::Context& context, const Plan& plan);
 
+    // Where a group lies.
+    struct Rows {
+        int slabRows;        // of one vertex
+        int firstRow, rows;  // in the state textures
+        int firstRecordRow;  // in the record textures; slabRows of them
+    };
+    const Rows& rowsOf(size_t group) const { return rows_[group]; }
+    // Sets it for shaders/state/textures.glsl.
+    void setGroup(const gpu::Program& program, size_t group) const;
+
     // Into and from the current sides; counted as state that crosses the bus.
-    void write(const GroupPlan& group, size_t index, const GroupState& state);
-    GroupState read(const GroupPlan& group, size_t index) const;
+    void write(size_t group, const GroupState& state);
+    GroupState read(size_t group) const;
     // Reads one molecule. Its scale and phase are in `looks`.
-    GroupState readOne(const GroupPlan& group, size_t index, size_t molecule) const;
-    std::vector<glm::vec3> readNormals(
-        const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
+    GroupState readOne(size_t group, size_t molecule) const;
+    std::vector<glm::vec3> readNormals(size_t group) const { return download(normal, group); }
 
     TwoSided position, velocity, acceleration, record;
     // Runge-Kutta methods: the state of a stage, and the rates added up so far; side s mod 2 is written by
@@ -67,6 +74,12 @@ class TextureState {
     }
 
   private:
+    // Index = molecule * vertexCount + vertex.
+    void upload(gpu::Texture& texture, size_t group, const std::vector<glm::vec3>& values) const;
+    std::vector<glm::vec3> download(const gpu::Texture& texture, size_t group) const;
+
+    const Plan* plan_;
+    std::vector<Rows> rows_;  // per group
     gpu::Framebuffers targets_;
 };
 

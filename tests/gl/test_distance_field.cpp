@@ -5,9 +5,7 @@
 #include "gl/numerics.h"
 #include "reference/colliders.h"
 #include "scene/collider_kinds.h"
-#include "simulate/tables.h"
 #include "support/catch.h"
-#include "support/message_of.h"
 #include "support/solids.h"
 
 namespace shoal {
@@ -235,15 +233,6 @@ TEST_CASE("distance field: far from the origin as near it", "[numerics][contact]
     const Snapshot now = simulation.snapshot(0);
     CHECK(glm::length(now.velocities[0]) < 1e-6);
     CHECK(now.positions[0].y - far.y == Approx(thickness).margin(1e-4));
-}
-
-TEST_CASE("distance field: more samples than the context holds", "[contact][distanceField]") {
-    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog);
-    scene.colliders = {fieldOf(box({-1, -1, -1}, {1, 0, 1}), 8, 0, 1)};
-    Plan plan = compile(scene);
-    plan.sampleRows = 8 * testContext().info().maxTextureSize;  // refused before they are read
-    const std::string message = messageOf([&] { Tables(testContext(), plan, Tables::Form::texture); });
-    CHECK(message.find("would fit at 47 % of their resolutions") != std::string::npos);
 }
 
 }  // namespace shoal

@@ -3,6 +3,7 @@
 
 #include "compile/generate.h"
 #include "compile/pack.h"
+#include "compile/passes.h"
 #include "compile/path.h"
 #include "compile/plan.h"
 #include "molecule/analysis.h"
@@ -40,10 +41,10 @@ Collider collider(ColliderShape shape) {
 // "records restore | advect collide restore | normals": the passes at a frame's start, a substep, its end.
 std::string passes(const Plan& plan) {
     std::string out;
-    using When = PassPlan::When;
+    using When = Pass::When;
     for (const When when : {When::frameStart, When::substep, When::frameEnd}) {
         if (when != When::frameStart) out += "|";
-        for (const PassPlan& pass : plan.passes)
+        for (const Pass& pass : passesOf(plan.groups.at(0)))
             if (pass.when == when)
                 out += std::string(out.empty() || out.back() == '|' ? "" : " ") + name(pass.kind);
     }
@@ -125,17 +126,12 @@ TEST_CASE("changing a number changes no shader text", "[plan]") {
     CHECK(after.groups[0].colliderParameters != before.groups[0].colliderParameters);
 }
 
-TEST_CASE("groups share the textures row by row", "[plan]") {
+TEST_CASE("groups share the textures of passes row by row", "[plan]") {
     Scene scene = sceneWith("quad", 1025);
     scene.groups.push_back(sceneWith("point", 5).groups[0]);
-    const Plan plan = compile(scene);
-    REQUIRE(plan.groups.size() == 2);
-    CHECK(plan.groups[0].texture.slabRows == 2);
-    CHECK(plan.groups[0].texture.rows == 8);
-    CHECK(plan.groups[1].texture.firstRow == 8);
-    CHECK(plan.groups[1].texture.firstRecordRow == 2);
-    CHECK(plan.rows == 9);
-    CHECK(plan.recordRows == 3);
+    const size_t rows = 4 * 2 + 1, recordRows = 2 + 1;
+    // two sides of positions, velocities and accelerations, and normals; two sides of records, and constants
+    CHECK(stateBytes(compile(scene), Path::pingPong, true) == (7 * rows + 3 * recordRows) * 1024 * 16);
 }
 
 TEST_CASE("start positions are the placed vertices, relative to an anchor on the lattice", "[plan]") {
@@ -230,6 +226,14 @@ TEST_CASE("more than the textures hold is refused with what would fit", "[plan]"
     limits.maxTextureLayers = 35;
     CHECK_THAT(messageOf([&] { choosePath(small, Path::fragments, limits); }),
                Catch::Contains("takes 36 layers") && Catch::Contains("has 35"));
+
+    Plan fine = compile(sceneWith("fish"));
+    fine.samples.resize(8 * 64 * stateWidth);
+    for (const Path path : {Path::fragments, Path::pingPong})
+        CHECK_THAT(messageOf([&] { choosePath(fine, path, limits); }),
+                   Catch::Contains("would fit at 47 % of their resolutions"));
+    limits.compute = true;
+    CHECK(choosePath(fine, Path::automatic, limits).path == Path::fused);
 }
 
 TEST_CASE("a context that draws into too few textures is refused with how many it takes", "[plan]") {

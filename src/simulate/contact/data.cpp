@@ -92,7 +92,7 @@ ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const 
       tables(&usedTables),
       state(&usedState),
       padded((size_t(contact->spheres) + contactLanes - 1) / contactLanes * contactLanes),
-      listLength(textures ? ContactPlan::fragmentList
+      listLength(textures ? contactsInFragments
                           : int(std::min(size_t(contact->listLength),
                                          mostEntries(context->info(), *contact) / padded))),
       table(context->shaders() + "/contact/arrays.txt", state->form()),
@@ -102,10 +102,10 @@ ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const 
 
 gpu::ArraySizes ContactData::sizes() const {
     const size_t spheres = textures ? size_t(contact->spheres) : padded;
-    const size_t cells = size_t(1) << contact->tableBits;
+    const size_t cells = contact->cells();
     return {{{"sphere", spheres}, {"slot", spheres}, {"key", cells}, {"counters", countWords(cells)}},
             size_t(listLength),
-            contact->rowBits()};
+            rowBits(cells)};
 }
 
 // Gives the arrays that never change.
@@ -121,7 +121,14 @@ void ContactData::giveTables() {
     arrays.give("materials", materials.data(), materials.size());
     if (textures && remembers) arrays.alias("oldImpulses", "impulses");
     if (!self && !rests) return;
-    const auto [words, groups] = contact->exclusions();
+    // Which spheres of one molecule do not meet (shaders/contact/search/touch.glsl): of each group x its
+    // first sphere, y spheres of a molecule, z first word, w words of a sphere.
+    std::vector<uint32_t> words;
+    std::vector<glm::uvec4> groups;
+    for (const ContactGroup& group : contact->groups) {
+        groups.emplace_back(group.firstSphere, group.spheresOf, words.size(), group.wordsOf);
+        words.insert(words.end(), group.apart.begin(), group.apart.end());
+    }
     if (self) arrays.give("apart", words.data(), words.size());
     arrays.give("groupsOf", groups.data(), groups.size());
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/plan.h"
+#include "compile/path.h"
 #include "gpu/arrays.h"
 #include "gpu/program.h"
 #include "simulate/contact/memory.h"

@@ -9,7 +9,7 @@ ContactGrid::ContactGrid(ContactData& data) : data_(&data) {
         const size_t grids = data.staggers ? 2 : 1;
         for (size_t i = 0; i < grids; ++i)
             networks_.emplace_back(*data.context, NetworkSort::Kind::bitonic, size_t(data.contact->spheres),
-                                   2 << data.contact->rowBits(), NetworkSort::Ties::byIndex);
+                                   2 << rowBits(data.contact->cells()), NetworkSort::Ties::byIndex);
         keys_ = data.stage("contact/grid/keys");
         starts_ = data.stage("sort/starts");
         slots_ = data.stage("contact/grid/slots");
