@@ -2,7 +2,7 @@
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 #include "contact/flags.glsl"
-#pragma reads sorted places cells
+#pragma reads sorted places motions sphereMotions cells
 
 uniform int count;     // spheres
 uniform int keyMask;   // of the table of cells
@@ -14,31 +14,15 @@ int sphereOf(int slot)
 }
 
 // Where what a step leaves of a slot's sphere to the next lies (contact/response/memory.glsl).
-#ifdef TEXTURES
-#pragma reads motions
-
 int memoryRow(int slot)
 {
-    return slot;
+    return inTextures ? slot : sphereOf(slot);
 }
 
 uvec4 motionAt(int slot)
 {
-    return motionsAt(slot);
+    return inTextures ? motionsAt(slot) : sphereMotionsAt(sphereOf(slot));
 }
-#else
-#pragma reads sphereMotions
-
-int memoryRow(int slot)
-{
-    return sphereOf(slot);
-}
-
-uvec4 motionAt(int slot)
-{
-    return sphereMotionsAt(sphereOf(slot));
-}
-#endif
 
 vec3 placeAt(int slot)
 {

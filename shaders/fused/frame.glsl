@@ -97,12 +97,8 @@ void main()
 #ifdef RECORDS
     moved = followAnchor();
 #endif
-#ifdef CONTACT_RADIUS
-#ifdef CONTACT_GROWTH
-    takeRadius(scale * mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min((age + frameDuration) / max(span, 1e-9), 1.0)));
-#else
-    takeRadius(scale);
-#endif
+#ifdef COLLIDE
+    takeRadius(scale, min((age + frameDuration) / max(span, 1e-9), 1.0));
 #endif
     beginSolver();
     sampleFrame();

@@ -53,7 +53,5 @@ void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, f
 // Decides from the springs' forces at the start of the frame whether pins are released.
 void releasePins(int step)
 {
-#ifdef RELEASE
-    springForcesNow(step, float(step) * substep);
-#endif
+    if (RELEASE) springForcesNow(step, float(step) * substep);
 }

@@ -131,16 +131,20 @@ float scale = 1.0;      // of the rest lengths
 float phase = 0.0;      // rad
 bool released = false;  // whether the pins are released
 uint seed;
-#ifdef LIFE
-float age;              // s
-float span;             // s, length of life; 0: the place is free
+float age = 0.0;        // s, where molecules are born and die
+float span = 0.0;       // s, length of life; 0: the place is free
 bool touched = false;   // a collider, in this frame
+#ifdef LIFE
+const bool isMortal = true;
+#else
+const bool isMortal = false;
+#endif
 
+// Whether there is a molecule.
 bool taken()
 {
-    return span > 0.0;
+    return !isMortal || span > 0.0;
 }
-#endif
 
 // Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so
 // that every index is a constant and every vertex stays in registers. Loops over j (fields) and k (contacts) are the same

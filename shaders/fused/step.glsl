@@ -20,22 +20,16 @@
 
 bool isHeld(bool pinned)
 {
-#ifdef PINS
-    return pinned && !released;
-#else
-    return false;
-#endif
+    return PINS && pinned && !released;
 }
 
 // The first forces of a frame decide whether the molecule's pins hold. To be called after springForces, if there are
 // springs.
 void letGo(int step)
 {
-#ifdef RELEASE
-    if (step > 0) return;
+    if (!RELEASE || step > 0) return;
     float pulled = pullOnPins();
     released = released || isReleased(pulled, releaseForce, seed, frame, releaseChance);
-#endif
 }
 
 // Fields that are read once a frame are read where the molecule will be in the middle of it.

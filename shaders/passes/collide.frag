@@ -27,9 +27,7 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-#ifdef CONTACT_RADIUS
-        takeRadius(texelFetch(constants, recordTexel(own.y), 0).y);
-#endif
+        takeRadius(texelFetch(constants, recordTexel(own.y), 0).y, 0.0);
         vec3 fall = fallAt(anchor, x);
         vec3 acceleration = fall + loadOn(own);
         vec3 kick = vec3(0.0);

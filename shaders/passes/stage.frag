@@ -48,9 +48,7 @@ void main()
 #ifdef COLLIDE
     // what begins the substep at rest on a collider is held by it, as in solver/runge-kutta.glsl
     if (startVelocity == vec3(0.0)) {
-#ifdef CONTACT_RADIUS
-        takeRadius(texelFetch(constants, recordTexel(own.y), 0).y);
-#endif
+        takeRadius(texelFetch(constants, recordTexel(own.y), 0).y, 0.0);
         vec4 standsOn = footing(anchor, start, time);
         a = heldBy(standsOn.xyz, standsOn.w, a);
     }

@@ -12,17 +12,36 @@ int ownLane()
     if (lane < 0 || lane >= numbers) discard;
     return lane;
 }
+
+bool isBehindLast()
+{
+    return false;
+}
+
+void discardTexel()
+{
+    discard;
+}
 #else
 layout(local_size_x = 64) in;
+
+int ownNumber()
+{
+    return int(gl_GlobalInvocationID.x);
+}
 
 // Lanes behind the last do what it does.
 int ownLane()
 {
-    return min(int(gl_GlobalInvocationID.x), numbers - 1);
+    return min(ownNumber(), numbers - 1);
 }
 
 bool isBehindLast()
 {
-    return int(gl_GlobalInvocationID.x) >= numbers;
+    return ownNumber() >= numbers;
+}
+
+void discardTexel()
+{
 }
 #endif

@@ -2,6 +2,7 @@
 // textures in rows of 2^ROW_BITS texels. Written as macros because a texel is fetched from either in the same words but not
 // with the same types.
 #ifdef TEXTURES
+const bool inTextures = true;
 #define UINTS usampler2D
 #define FLOATS sampler2D
 #define fetch(values, i) texelFetch(values, texelOf(i), 0)
@@ -19,6 +20,7 @@ int numberOf(ivec2 texel)
     return (texel.y << ROW_BITS) + texel.x;
 }
 #else
+const bool inTextures = false;
 #define UINTS usamplerBuffer
 #define FLOATS samplerBuffer
 #define fetch(values, i) texelFetch(values, i)

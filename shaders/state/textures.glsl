@@ -57,13 +57,5 @@ vec4 inertia(int vertex)
 // Whether a pin holds the vertex and has not been released.
 bool isHeld(vec4 vertexInertia, int molecule)
 {
-#ifdef PINS
-#ifdef RELEASE
-    return vertexInertia.y > 0.5 && texelFetch(records, recordTexel(molecule), 0).w < 0.5;
-#else
-    return vertexInertia.y > 0.5;
-#endif
-#else
-    return false;
-#endif
+    return PINS && vertexInertia.y > 0.5 && (!RELEASE || texelFetch(records, recordTexel(molecule), 0).w < 0.5);
 }

@@ -5,15 +5,22 @@
 
 #ifdef CONTACT_RADIUS
 // The radius of the sphere around the place that is asked for, m, which rests on surfaces where a collider's thickness is
-// less. CONTACT_RADIUS: that of the group's vertices, of a molecule of scale 1.
+// less. CONTACT_RADIUS: that of the group's vertices, of a molecule of scale 1; CONTACT_GROWTH: its factors at birth and at
+// death.
 float contactRadius = 0.0;
 
-void takeRadius(float scale)
+// `lived`: which share of its life a molecule has lived.
+void takeRadius(float scale, float lived)
 {
-    contactRadius = CONTACT_RADIUS * scale;
+    float growth = mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, lived);
+    contactRadius = CONTACT_RADIUS * (CONTACT_GROWTH == vec2(1.0) ? scale : scale * growth);
 }
 #else
 const float contactRadius = 0.0;
+
+void takeRadius(float scale, float lived)
+{
+}
 #endif
 
 #ifdef RIGID_IMPACT

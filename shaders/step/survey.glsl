@@ -62,7 +62,7 @@ void meetSwept(inout Survey s, Touch t, ivec3 skip)
 
 void meetSolid(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
 {
-#ifdef WALLS
+#ifdef NEAR_SOLIDS
     meetSwept(s, t, skip);  // contact between molecules asks for what is near (contact/grid/state_sphere.glsl)
     return;
 #endif

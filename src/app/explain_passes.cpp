@@ -36,7 +36,8 @@ FramePasses framePasses(const Options& options, const Loaded& loaded) {
 }
 
 std::string asText(const FramePasses& passes) {
-    std::string out = asText(passes.machine) + "\n\na frame, in the order of first use: how often, and what each reads and writes\n";
+    std::string out = asText(passes.machine) +
+                      "\n\na frame, in the order of first use: how often, and what each reads and writes\n";
     std::string stage;
     for (const gpu::PassRow& row : passes.rows) {
         if (row.stage != stage) out += concat(row.stage, "\n");

@@ -107,11 +107,8 @@ void checkRest(const Scene& scene, int steps) {
 }  // namespace
 
 std::vector<std::string> ContactGroup::defines() const {
-    std::vector<std::string> out{concat("CONTACT_RADIUS ", glslLiteral(radius))};
-    if (growth != glm::dvec2(1))
-        out.push_back(
-            concat("CONTACT_GROWTH vec2(", glslLiteral(growth.x), ", ", glslLiteral(growth.y), ")"));
-    return out;
+    return {concat("CONTACT_RADIUS ", glslLiteral(radius)),
+            concat("CONTACT_GROWTH vec2(", glslLiteral(growth.x), ", ", glslLiteral(growth.y), ")")};
 }
 
 bool ContactPlan::mayRest(const GroupPlan& group) const {

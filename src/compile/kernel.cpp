@@ -31,14 +31,11 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     if (needs.life)
         out += glslArray("vec3", "restPlace", count,
                          [&](size_t v) { return glslLiteral(molecule.vertices[v].position); });
-    if (needs.release) {
-        out +=
-            "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = "
-            "0.0;\n";
-        for (size_t v = 0; v < count && needs.springs; ++v)
-            if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
-        out += "    return pull;\n}\n";
-    }
+    out +=
+        "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = 0.0;\n";
+    for (size_t v = 0; v < count && needs.release && needs.springs; ++v)
+        if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
+    out += "    return pull;\n}\n";
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");

@@ -67,7 +67,9 @@ std::string placeOf(const ArrayRow& row) {
 
 }  // namespace
 
-ArrayTable::ArrayTable(const std::string& file, Form form) : file_(file), form_(form) {
+ArrayTable::ArrayTable(const std::string& file, Form form, std::set<std::string> holds)
+    : file_(file), form_(form), holds_(std::move(holds)) {
+    holds_.insert(form == Form::buffers ? "buffers" : "textures");
     const std::string text = readFile(file);
     int number = 0;
     for (const std::string& line : split(text, '\n')) {
@@ -116,6 +118,7 @@ void ArrayTable::readRow(const std::vector<std::string>& cells, const Location& 
     row.start = ArrayRow::Start(start - std::begin(starts));
     row.when = split(cells[6], ' ');
     std::erase(row.when, "always");
+    row.isNeeded = meets(row.when);
     const bool isHere = form == "both" || (form == "buffers") == (form_ == Form::buffers);
     if (!(isHere ? rows_ : elsewhere_).emplace(row.name, row).second)
         throw Error(where, concat("there are two arrays \"", row.name, "\""));
@@ -126,9 +129,16 @@ const ArrayRow* ArrayTable::find(std::string_view name) const {
     return found == rows_.end() ? nullptr : &found->second;
 }
 
-const ArrayRow* ArrayTable::findElsewhere(std::string_view name) const {
+const ArrayRow* ArrayTable::findAbsent(std::string_view name) const {
+    if (const ArrayRow* here = find(name)) return here->isNeeded ? nullptr : here;
     const auto found = elsewhere_.find(name);
-    return found == elsewhere_.end() || find(name) ? nullptr : &found->second;
+    return found == elsewhere_.end() ? nullptr : &found->second;
+}
+
+bool ArrayTable::meets(const std::vector<std::string>& when) const {
+    return std::all_of(when.begin(), when.end(), [&](const std::string& word) {
+        return word[0] == '!' ? !holds_.contains(word.substr(1)) : holds_.contains(word);
+    });
 }
 
 const ArrayRow& ArrayTable::row(std::string_view name, const Location& asker) const {
@@ -141,11 +151,21 @@ const ArrayRow& ArrayTable::row(std::string_view name, const Location& asker) co
                               near.empty() ? "" : concat(" (did you mean \"", near, "\"?)")));
 }
 
-// Declares that values put into an array of the other form go nowhere.
-static std::string nowhere(const ArrayRow& row) {
+// Declares that values put into an array go nowhere.
+std::string ArrayDeclarations::nowhere(const ArrayRow& row) {
+    if (std::find(written_.begin(), written_.end(), row.name) != written_.end()) return "";
+    if (!nowhere_.insert(row.name).second) return "";
     const std::string name = capital(row.name);
     return concat("#define put", name, "(", argumentsOf(row, ""), ", value)\n#define putAll", name,
                   "(i, values)\n");
+}
+
+// Declares an array that is not there.
+std::string ArrayDeclarations::absent(const ArrayRow& row, const std::string& verb) {
+    std::string out = verb == "reads" ? "" : nowhere(row);
+    if (verb != "writes" && read_.insert(row.name).second)
+        out += concat("#define ", row.name, "At(", argumentsOf(row, ""), ") ", typeOf(row), "(0)\n");
+    return out;
 }
 
 std::string ArrayDeclarations::withStride(const ArrayRow& row) {
@@ -206,6 +226,8 @@ std::string ArrayDeclarations::outputs(const std::vector<const ArrayRow*>& rows)
     if (lists > 0) out += concat("#define ENTRIES_A_DRAW ", together, "\nuniform int firstEntry;\n");
     for (const ArrayRow* row : rows) {
         written_.push_back(row->name);
+        if (nowhere_.erase(row->name) != 0)
+            out += concat("#undef put", capital(row->name), "\n#undef putAll", capital(row->name), "\n");
         const std::string name = capital(row->name), output = concat("new", name),
                           put = concat("#define put", name, "(", argumentsOf(*row, ""));
         const std::string head = concat("layout(location = ", location_, ") out ");
@@ -233,19 +255,22 @@ std::string ArrayDeclarations::outputs(const std::vector<const ArrayRow*>& rows)
     return out;
 }
 
-std::string ArrayDeclarations::declare(const std::string& verb, const std::vector<std::string>& names,
+std::string ArrayDeclarations::declare(const std::string& verb, const std::vector<std::string>& words,
                                        const Location& where) {
     if (verb != "reads" && verb != "writes" && verb != "updates")
         throw Error(where, "expected #pragma reads, writes or updates, and names of arrays");
     const bool textures = table_->form() == ArrayTable::Form::textures;
+    const auto last = std::find(words.begin(), words.end(), "when");
+    const bool isMet = last == words.end() || table_->meets({last + 1, words.end()});
     std::vector<const ArrayRow*> rows;
     std::string out;
-    for (const std::string& name : names) {
-        const ArrayRow* elsewhere = verb == "reads" ? nullptr : table_->findElsewhere(name);
-        if (elsewhere)
-            out += nowhere(*elsewhere);
+    for (auto name = words.begin(); name != last; ++name) {
+        const ArrayRow* missing = table_->findAbsent(*name);
+        if (!missing && !isMet) missing = &table_->row(*name, where);
+        if (missing)
+            out += absent(*missing, verb);
         else
-            rows.push_back(&table_->row(name, where));
+            rows.push_back(&table_->row(*name, where));
     }
     if (verb == "writes" && textures) return out + outputs(rows);
     for (const ArrayRow* row : rows) {

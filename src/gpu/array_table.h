@@ -12,8 +12,11 @@
 // for each entry of a list a pass writes some entries, from `firstEntry` on, and calls putEntries() at its
 // end.
 //
-// So that a pass has one text for both, fragments only read what it updates, and what it puts into an array
-// that the other form alone has goes nowhere.
+// So that a pass has one text for both forms and all scenes, fragments only read what it updates, and an
+// array that the form or the scene lacks takes nothing: it reads as zeros, and what is put into it goes
+// nowhere. The same holds of what a pass declares for some scenes or for one form only:
+//
+//   #pragma writes effectiveCounts when !spreads
 #pragma once
 
 #include <map>
@@ -39,21 +42,25 @@ struct ArrayRow {
     bool isRecord = false;        // words in a storage block that shaders declare by themselves
     Start start = Start::undefined;
     std::vector<std::string> when;  // what a scene must have, or with ! must not, to need it
+    bool isNeeded = true;           // by the scene
 };
 
 class ArrayTable {
   public:
     enum class Form { buffers, textures };
-    // Reads the rows of a form. Error, located: a row that cannot be read; two of one name.
-    ArrayTable(const std::string& file, Form form);
+    // Reads the rows of a form. `holds`: what the scene has, as `when` names it; the form is added. Error,
+    // located: a row that cannot be read; two of one name.
+    ArrayTable(const std::string& file, Form form, std::set<std::string> holds = {});
 
     Form form() const { return form_; }
     const std::map<std::string, ArrayRow, std::less<>>& rows() const { return rows_; }
     // The includes that declarations need.
     const std::vector<std::string>& includes() const { return includes_; }
     const ArrayRow* find(std::string_view name) const;
-    // The row of an array that the other form alone has, or null.
-    const ArrayRow* findElsewhere(std::string_view name) const;
+    // The row of an array that the other form alone has or the scene does not need, or null.
+    const ArrayRow* findAbsent(std::string_view name) const;
+    // Whether the scene has all that these name, and nothing that they name with !.
+    bool meets(const std::vector<std::string>& when) const;
     // Error, located: there is no such row.
     const ArrayRow& row(std::string_view name, const Location& asker) const;
 
@@ -62,6 +69,7 @@ class ArrayTable {
 
     std::string file_;
     Form form_;
+    std::set<std::string> holds_;
     std::map<std::string, ArrayRow, std::less<>> rows_, elsewhere_;
     std::vector<std::string> includes_;
 };
@@ -73,9 +81,9 @@ class ArrayDeclarations {
 
     explicit ArrayDeclarations(const ArrayTable& table) : table_(&table) {}
 
-    // The text in place of #pragma reads, writes or updates with these names. Error, located: it is none of
-    // the three; no such array.
-    std::string declare(const std::string& verb, const std::vector<std::string>& names,
+    // The text in place of #pragma reads, writes or updates with these words: names and, after "when", what
+    // the scene must have. Error, located: it is none of the three; no such array.
+    std::string declare(const std::string& verb, const std::vector<std::string>& words,
                         const Location& where);
     const std::vector<std::string>& written() const { return written_; }
     const std::vector<std::string>& updated() const {
@@ -84,12 +92,14 @@ class ArrayDeclarations {
 
   private:
     std::string reading(const ArrayRow& row);
+    std::string absent(const ArrayRow& row, const std::string& verb);
+    std::string nowhere(const ArrayRow& row);
     std::string block(const ArrayRow& row, bool alsoReads);
     std::string outputs(const std::vector<const ArrayRow*>& rows);
     std::string withStride(const ArrayRow& row);
 
     const ArrayTable* table_;
-    std::set<std::string> read_;
+    std::set<std::string> read_, nowhere_;  // nowhere_: what is put into them
     std::vector<std::string> written_, updated_;
     int location_ = 0;
     bool hasStride_ = false;

@@ -27,13 +27,6 @@ std::string arrayOf(std::string block) {
     return block;
 }
 
-// Whether what a scene holds is what a row needs.
-bool isNeeded(const ArrayRow& row, const std::set<std::string>& holds) {
-    return std::all_of(row.when.begin(), row.when.end(), [&](const std::string& word) {
-        return word[0] == '!' ? !holds.contains(word.substr(1)) : holds.contains(word);
-    });
-}
-
 // The bytes that an array of so many texels begins with; none where nobody reads what nobody wrote.
 std::vector<std::byte> beginning(const ArrayRow& row, size_t bytes) {
     if (row.start == ArrayRow::Start::undefined) return {};
@@ -51,13 +44,12 @@ Array::Array(Context& context, size_t texels, Texel texel, const char* label, co
     : buffer(context, Buffer::Use::storage, data, texels * bytesOf(texel), label),
       texture(context, buffer, texel, label) {}
 
-Arrays::Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes,
-               const std::set<std::string>& holds, const std::string& label)
+Arrays::Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes, const std::string& label)
     : context_(&context), table_(&table), sizes_(sizes), label_(label), framebuffers_(context) {
     for (const auto& [name, row] : table.rows()) {
         Entry& entry = arrays_[name];
         entry.row = &row;
-        if (row.index == "given" || !isNeeded(row, holds)) continue;
+        if (row.index == "given" || !row.isNeeded) continue;
         size_t elements = row.more;
         if (row.index.empty()) {
             ++elements;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -35,10 +34,9 @@ struct ArraySizes {
 // block `Places` holds it.
 class Arrays {
   public:
-    // Makes the rows that `holds` needs: of it, what `when` names. `label`: goes before their names. Borrows
-    // the table. Error: out of memory.
-    Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes,
-           const std::set<std::string>& holds, const std::string& label);
+    // Makes the rows that the scene needs. `label`: goes before their names. Borrows the table. Error: out of
+    // memory.
+    Arrays(Context& context, const ArrayTable& table, const ArraySizes& sizes, const std::string& label);
 
     // Makes an array whose content the caller has, of so many values.
     void give(const std::string& name, const void* data, size_t values);

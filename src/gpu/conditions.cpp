@@ -60,7 +60,7 @@ bool Conditions::directive(const std::string& word, const std::vector<std::strin
     const auto open = [&](bool condition) { open_.push_back({condition, condition, where}); };
     if (word == "ifdef" || word == "ifndef") {
         need(words.size() == 1, where);
-        open((defined_.count(words[0]) == 1) == (word == "ifdef"));
+        open(isDefined(words[0], where) == (word == "ifdef"));
     } else if (word == "if") {
         open(holds(words, where));
     } else if (word == "elif" || word == "else") {
@@ -78,9 +78,18 @@ bool Conditions::directive(const std::string& word, const std::vector<std::strin
     } else if (word == "undef" && taken()) {
         need(words.size() == 1, where);
         defined_.erase(words[0]);
+        return false;
     } else {
         return false;
     }
+    return true;
+}
+
+bool Conditions::isDefined(const std::string& name, const Location& where) const {
+    const auto found = defined_.find(name);
+    if (found == defined_.end()) return false;
+    if (found->second == "true" || found->second == "false")
+        throw Error(where, concat(name, " is a constant, true or false: an ordinary if asks for it"));
     return true;
 }
 
@@ -97,7 +106,7 @@ bool Conditions::holds(const std::vector<std::string>& words, const Location& wh
             wanted = !wanted;
         bool term = false;
         if (is(0, "defined") && is(1, "(") && is(3, ")")) {
-            term = defined_.count(words[i + 2]) == 1;
+            term = isDefined(words[i + 2], where);
             i += 4;
         } else {
             need(is(1, ">") && i + 2 < words.size() && defined_.count(words[i]) == 1, where);

@@ -15,7 +15,8 @@ namespace shoal::gpu {
 //
 // A condition joins with && and || terms of the form defined(NAME), !defined(NAME) and NAME > NUMBER, without
 // brackets. A name counts as defined from its #define on, whatever driver or language defines by itself is
-// unknown. Error, located: a condition of another form.
+// unknown. What is defined as true or false is a constant, for an ordinary if. Error, located: a condition of
+// another form, or of such a constant.
 class Conditions {
   public:
     // Whether what stands here is used.
@@ -34,6 +35,7 @@ class Conditions {
     };
 
     bool directive(const std::string& word, const std::vector<std::string>& words, const Location& where);
+    bool isDefined(const std::string& name, const Location& where) const;
     bool holds(const std::vector<std::string>& words, const Location& where) const;
 
     std::map<std::string, std::string> defined_;  // and their values

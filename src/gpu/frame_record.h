@@ -8,9 +8,9 @@
 namespace shoal::gpu {
 
 struct PassRow {
-    std::string stage;  // as PassTimers names it; empty: outside of them
-    std::string pass;   // the program's label
-    int times = 0;      // dispatches and draws
+    std::string stage;                       // as PassTimers names it; empty: outside of them
+    std::string pass;                        // the program's label
+    int times = 0;                           // dispatches and draws
     std::vector<std::string> reads, writes;  // arrays and textures, by the names that the shader declares
 };
 

@@ -256,7 +256,7 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
     return std::move(resolver.source);
 }
 
-std::string flag(const char* name, bool value) {
+std::string constant(const std::string& name, bool value) {
     return concat(name, value ? " true" : " false");
 }
 

@@ -48,8 +48,9 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::map<std::string, std::string>& generated, const std::string& header,
                            const ArrayTable* arrays = nullptr);
 
-// The define of a constant that is "true" or "false", which a shader asks for with an ordinary `if`.
-std::string flag(const char* name, bool value);
+// A define, true or false, that an ordinary `if` asks for: its branch that is never taken is read by the
+// compiler, so that a misspelt name is an error, and folded away.
+std::string constant(const std::string& name, bool value);
 
 const char* header330();  // #version 330 core
 const char* header430();  // #version 430 core, the first with compute shaders

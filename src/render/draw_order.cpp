@@ -69,7 +69,7 @@ DrawOrder::DrawOrder(gpu::Context& context, const GroupPlan& group, size_t index
 
 std::vector<std::string> DrawOrder::defines() const {
     if (!network_) return {"ORDER_BUFFER"};
-    return {gpu::flag("ORDER_PAIRED", network_->kind() == NetworkSort::Kind::bitonic)};
+    return {gpu::constant("ORDER_PAIRED", network_->kind() == NetworkSort::Kind::bitonic)};
 }
 
 void DrawOrder::bind(const gpu::Program& program) const {

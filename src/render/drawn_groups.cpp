@@ -143,7 +143,7 @@ void DrawnGroups::makeOrders(gpu::Context& context, const Plan& plan, int slabs)
         if (slabDraws)
             drawer.addOrderDefines({"SLAB_DRAWS"});
         else
-            drawer.addOrderDefines({"ORDERED", gpu::flag("SLABS", inSlabs)});
+            drawer.addOrderDefines({"ORDERED", gpu::constant("SLABS", inSlabs)});
         drawer.addOrderDefines(group.order->defines());
         if (slabDraws)
             group.slabDraws =

@@ -60,7 +60,7 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
     const std::vector<std::string> defines = reader_.defines(state);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
     const bool lit = &variants == &lit_;
-    wanted.defines.push_back(gpu::flag("COLOR_BY", lit && scale_));
+    wanted.defines.push_back(gpu::constant("COLOR_BY", lit && scale_));
     if (lit) wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
     program = &programs_->get(*context_, wanted);
     return *program;

@@ -29,14 +29,14 @@ Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadow
 
 std::vector<std::string> Lighting::defines() const {
     std::vector<std::string> out = toneDefines();
-    out.push_back(gpu::flag("SHADOWS", shadows_.near != nullptr));
-    out.push_back(gpu::flag("WIDE_SHADOWS", shadows_.wide != nullptr));
+    out.push_back(gpu::constant("SHADOWS", shadows_.near != nullptr));
+    out.push_back(gpu::constant("WIDE_SHADOWS", shadows_.wide != nullptr));
     if (water_ != nullptr) out.emplace_back("WATER");
     return out;
 }
 
 std::vector<std::string> Lighting::toneDefines() const {
-    return {gpu::flag("LINEAR_LIGHT", blends_)};
+    return {gpu::constant("LINEAR_LIGHT", blends_)};
 }
 
 void Lighting::applySun(const gpu::Program& program) const {

@@ -106,7 +106,7 @@ const gpu::Program& SpringLines::program(Drawn& group, const StateView& state, c
                                 group.name + " (springs)"};
     for (const std::string& define : group.reader.defines(state))
         options.defines.push_back(define);
-    options.defines.push_back(gpu::flag("SCALED", group.scaled));
+    options.defines.push_back(gpu::constant("SCALED", group.scaled));
     program = gpu::Program(*context_, options);
     return program;
 }

@@ -110,8 +110,8 @@ void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
 
 void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     gpu::ProgramOptions& depth = depthOptions_;
-    depth.defines = {gpu::flag("TEXTURED", bool(image_)), gpu::flag("GROWS", grows()),
-                     concat("SKIN_WEIGHTS ", skinWeights_), gpu::flag("SKIN_OFFSETS", skinOffsets_)};
+    depth.defines = {gpu::constant("TEXTURED", bool(image_)), gpu::constant("GROWS", grows()),
+                     concat("SKIN_WEIGHTS ", skinWeights_), gpu::constant("SKIN_OFFSETS", skinOffsets_)};
     depth.vertex = points_            ? "render/points.vert"
                    : skinWeights_ > 0 ? "render/skinned.vert"
                                       : "render/molecule.vert";

@@ -101,12 +101,12 @@ std::vector<std::string> ParticleDrawer::defines() const {
                              : !flips ? "tileOfSeed"
                              : again  ? "tilesAgain"
                                       : "tilesOnce"),
-            gpu::flag("AGES", ages_),
-            gpu::flag("SIZES", type_.size.x != type_.size.y),
-            gpu::flag("GROWS", ages_ && type_.growth != glm::dvec2(1)),
-            gpu::flag("TURNS", turns(type_)),
-            gpu::flag("IMAGE", type_.image.has_value()),
-            gpu::flag("FADES", flips && type_.image->blend)};
+            gpu::constant("AGES", ages_),
+            gpu::constant("SIZES", type_.size.x != type_.size.y),
+            gpu::constant("GROWS", ages_ && type_.growth != glm::dvec2(1)),
+            gpu::constant("TURNS", turns(type_)),
+            gpu::constant("IMAGE", type_.image.has_value()),
+            gpu::constant("FADES", flips && type_.image->blend)};
 }
 
 void ParticleDrawer::chooseShaders(const Lighting& lighting) {
@@ -122,8 +122,8 @@ void ParticleDrawer::chooseShaders(const Lighting& lighting) {
     for (const std::string& define : lighting.defines())
         lit.push_back(define);
     lit.push_back(blendDefine(type_.blend));
-    lit.push_back(gpu::flag("LIT", type_.lit && type_.blend != Blend::multiplicative));
-    lit.push_back(gpu::flag("SOFT", readsDepth()));
+    lit.push_back(gpu::constant("LIT", type_.lit && type_.blend != Blend::multiplicative));
+    lit.push_back(gpu::constant("SOFT", readsDepth()));
     litOptions_.label = name_ + " (picture)";
 }
 

@@ -27,14 +27,14 @@ static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene&
 static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
                                                const AmbientOcclusion& occlusion, bool clear, bool linear) {
     std::vector<std::string> out = lighting.toneDefines();
-    out.insert(out.end(), {gpu::flag("CLEAR", clear), gpu::flag("LINEAR", linear),
-                           gpu::flag("BEAMS", bool(beams)), gpu::flag("OCCLUSION", bool(occlusion))});
+    out.insert(out.end(), {gpu::constant("CLEAR", clear), gpu::constant("LINEAR", linear),
+                           gpu::constant("BEAMS", bool(beams)), gpu::constant("OCCLUSION", bool(occlusion))});
     return out;
 }
 
 static std::vector<std::string> skyDefines(const Lighting& lighting, const Sky& sky) {
     std::vector<std::string> out = lighting.defines();
-    out.push_back(gpu::flag("CLOUDS", sky.clouds > 0));
+    out.push_back(gpu::constant("CLOUDS", sky.clouds > 0));
     return out;
 }
 

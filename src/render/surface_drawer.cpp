@@ -193,13 +193,14 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
             const SurfaceMaterial& material = look.material;
             gpu::ProgramOptions lit{
                 "render/surface.vert", "render/surface.frag", lighting.defines(), {}, "surfaces"};
-            lit.defines.insert(lit.defines.end(), {gpu::flag("PLANE", surface.plane.has_value()),
-                                                   gpu::flag("COLOR_IMAGE", material.colorImage >= 0),
-                                                   gpu::flag("NORMAL_IMAGE", material.normalImage >= 0),
-                                                   gpu::flag("ROUGHNESS_IMAGE", material.roughnessImage >= 0),
-                                                   gpu::flag("EMISSIVE_IMAGE", material.emissiveImage >= 0),
-                                                   gpu::flag("CUT", cutOut(material)),
-                                                   gpu::flag("REFRACTS", refracting(material))});
+            lit.defines.insert(
+                lit.defines.end(),
+                {gpu::constant("PLANE", surface.plane.has_value()),
+                 gpu::constant("COLOR_IMAGE", material.colorImage >= 0),
+                 gpu::constant("NORMAL_IMAGE", material.normalImage >= 0),
+                 gpu::constant("ROUGHNESS_IMAGE", material.roughnessImage >= 0),
+                 gpu::constant("EMISSIVE_IMAGE", material.emissiveImage >= 0),
+                 gpu::constant("CUT", cutOut(material)), gpu::constant("REFRACTS", refracting(material))});
             if (surface.plane) lit.label = "planes";
             look.lit = &programs_.get(context, lit);
             if (surface.plane) {
@@ -207,12 +208,12 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
                 look.lit->set("grid", int(grid));
             }
             if (!shadows || !surface.casts) continue;
-            look.depth = &programs_.get(
-                context, {"render/surface.vert",
-                          "render/surface_shadow.frag",
-                          {gpu::flag("HOLES", hasHoles(material)), gpu::flag("BLENDED", blended(material))},
-                          {},
-                          "surface depth"});
+            look.depth = &programs_.get(context, {"render/surface.vert",
+                                                  "render/surface_shadow.frag",
+                                                  {gpu::constant("HOLES", hasHoles(material)),
+                                                   gpu::constant("BLENDED", blended(material))},
+                                                  {},
+                                                  "surface depth"});
         }
     }
 }

@@ -47,7 +47,7 @@ BirthPasses::BirthPasses(gpu::Context& context, const Plan& plan, const Tables& 
     : plan_(&plan),
       groups_(makeGroups(parts, form)),
       table_(context.shaders() + "/births/arrays.txt", form),
-      arrays_(context, table_, sizes(context.info(), form), {}, "births"),
+      arrays_(context, table_, sizes(context.info(), form), "births"),
       tables_(&tables) {
     makeOrder();
     makePrograms(context);

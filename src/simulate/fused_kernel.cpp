@@ -83,8 +83,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
             out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
     }
     define(needs.records, "RECORDS");
-    define(needs.release, "RELEASE");
-    define(needs.pins, "PINS");
+    out.insert(out.end(), {gpu::constant("PINS", needs.pins), gpu::constant("RELEASE", needs.release)});
     define(needs.springs, "SPRINGS");
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");

@@ -1,6 +1,7 @@
 #include "simulate/ping_pong.h"
 
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 
 namespace shoal {
 
@@ -27,8 +28,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
         out.push_back(concat("STAGES ", solver.tableau.stages));
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.collide, "COLLIDE");
-    define(needs.pins, "PINS");
-    define(needs.release, "RELEASE");
+    out.insert(out.end(), {gpu::constant("PINS", needs.pins), gpu::constant("RELEASE", needs.release)});
     define(needs.records, "RECORDS");
     return out;
 }
@@ -58,9 +58,9 @@ class VertexTexels : public ContactState {
             gpu::ProgramOptions options;
             options.vertex = "passes/fullscreen.vert";
             options.fragment = "passes/touched.frag";
-            options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))};
-            if (group.needs.pins) options.defines.emplace_back("PINS");
-            if (group.needs.release) options.defines.emplace_back("RELEASE");
+            options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells())),
+                               gpu::constant("PINS", group.needs.pins),
+                               gpu::constant("RELEASE", group.needs.release)};
             options.label = concat("contact apply of ", group.name);
             apply_[contact.group] = Program(context, options);
         }

@@ -6,16 +6,16 @@
 
 namespace shoal {
 
-constexpr double never = -std::numeric_limits<double>::infinity();
+constexpr double freeSince = -std::numeric_limits<double>::infinity();
 
 // A stack hands out the first places first.
-Places::Places(Allocator allocator, size_t count) : allocator_(allocator), ends_(count, never), free_(count) {
+Places::Places(Allocator allocator, size_t count) : allocator_(allocator), ends_(count, freeSince), free_(count) {
     std::iota(free_.begin(), free_.end(), uint32_t(0));
     if (allocator == Allocator::stack) std::reverse(free_.begin(), free_.end());
 }
 
 void Places::giveBack(uint32_t place) {
-    ends_[place] = never;
+    ends_[place] = freeSince;
     free_.push_back(place);
     if (allocator_ == Allocator::heap) std::push_heap(free_.begin(), free_.end(), std::greater<>());
 }
@@ -25,7 +25,7 @@ void Places::freeUntil(double time) {
         giveBack(next_.top().second);
         next_.pop();
     }
-    while (mark_ > 0 && ends_[size_t(mark_) - 1] == never)
+    while (mark_ > 0 && ends_[size_t(mark_) - 1] == freeSince)
         --mark_;
 }
 
@@ -57,7 +57,7 @@ void Places::restore(const std::vector<double>& ends, const std::vector<uint32_t
             next_.emplace(ends_[place], place);
             mark_ = int(place) + 1;
         } else {
-            ends_[place] = never;
+            ends_[place] = freeSince;
             free_.push_back(place);  // ascending: a heap as it is
         }
     }

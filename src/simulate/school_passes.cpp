@@ -46,7 +46,7 @@ SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables
                 {"key", size_t(school_->keys)}},
                0,
                rowBits},
-              {}, "school"),
+              "school"),
       tables_(&tables) {
     gpu::ProgramOptions keys = optionsOf("school/keys", "school keys", nullptr);
     keys.defines.push_back(concat("GRIDS ", school_->grids.size()));

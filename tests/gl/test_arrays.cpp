@@ -42,7 +42,7 @@ TEST_CASE("passes over arrays read what passes before have written", "[arrays]")
         writeFile(scratch.path("arrays.txt"), rows);
         const ArrayTable table(scratch.path("arrays.txt"), form);
         constexpr int places = 200;
-        Arrays arrays(testContext(), table, {{{"place", places}}, 0, 4}, {}, "test");
+        Arrays arrays(testContext(), table, {{{"place", places}}, 0, 4}, "test");
         std::vector<uint32_t> factors(places);
         for (uint32_t i = 0; i < places; ++i)
             factors[i] = 3 * i;

@@ -132,17 +132,17 @@ TEST_CASE("a program that lacks what it reads ends with its name", "[compute]") 
     const Program program(testContext(), computing(squares)), other(testContext(), computing(squares));
     program.use();
     program.storage("Numbers", numbers);
-    const auto lacking = endOf([] { checkGiven(); });
+    const auto lacking = endOf([] { beginPass(); });
     CHECK(lacking.signal == SIGABRT);
     CHECK_THAT(lacking.said, Catch::Contains("the program in use was not given \"Squares\""));
     program.storage("Squares", results);
-    CHECK(endOf([] { checkGiven(); }).signal == 0);
+    CHECK(endOf([] { beginPass(); }).signal == 0);
     // what another program has been given since lies in its place
     other.use();
     other.storage("Numbers", results);
     other.storage("Squares", numbers);
     program.use();
-    CHECK_THAT(endOf([] { checkGiven(); }).said, Catch::Contains("was not given \"Numbers\""));
+    CHECK_THAT(endOf([] { beginPass(); }).said, Catch::Contains("was not given \"Numbers\""));
 }
 
 TEST_CASE("a fragment shader reads a whole buffer as a texture", "[compute]") {

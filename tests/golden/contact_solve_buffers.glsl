@@ -1,9 +1,24 @@
 #version 430 core
+#define REMEMBERS true
+#define RESTS false
+#define STAGGERS false
+#define SWEEPS false
+#define SELF false
+#define SPREADS false
+#define BODIES false
+#define COLLIDERS false
 #define LIST 24
 #define MOST_COLLIDERS 3
+const bool inTextures = false;
 #define UINTS usamplerBuffer
 #define FLOATS samplerBuffer
 #define fetch(values, i) texelFetch(values, i)
+#define putColliderImpulses(i, k, value)
+#define putAllColliderImpulses(i, values)
+#define colliderImpulsesAt(i, k) vec4(0)
+#define putEarlierColliderImpulses(i, k, value)
+#define putAllEarlierColliderImpulses(i, values)
+#define earlierColliderImpulsesAt(i, k) vec4(0)
 uniform int listStride;
 layout(std430) buffer Impulses { vec4 impulsesBuffer[]; };
 #define putImpulses(i, e, value) impulsesBuffer[(e) * listStride + (i)] = (value)
@@ -17,16 +32,24 @@ vec4 earlierImpulsesAt(int i, int e)
 {
     return earlierImpulsesBuffer[(e) * listStride + (i)];
 }
+uniform float momentum;
 uniform int firstNumber;
 uniform int numbers;
 layout(local_size_x = 64) in;
+int ownNumber()
+{
+    return int(gl_GlobalInvocationID.x);
+}
 int ownLane()
 {
-    return min(int(gl_GlobalInvocationID.x), numbers - 1);
+    return min(ownNumber(), numbers - 1);
 }
 bool isBehindLast()
 {
-    return int(gl_GlobalInvocationID.x) >= numbers;
+    return ownNumber() >= numbers;
+}
+void discardTexel()
+{
 }
 const uint CONTACTS = 0x1fffffffu;
 const uint HELD = 0x20000000u;
@@ -57,6 +80,11 @@ bool marksWoken(uint mark)
 {
     return mark >= STRUCK;
 }
+uniform usamplerBuffer counts;
+uint countsAt(int i)
+{
+    return texelFetch(counts, i).x;
+}
 uniform usamplerBuffer responding;
 uint respondingAt(int i)
 {
@@ -64,12 +92,14 @@ uint respondingAt(int i)
 }
 int ownSlot(int count)
 {
-    int lane = int(gl_GlobalInvocationID.x);
-    return lane < int(respondingAt(0)) ? int(respondingAt(1 + lane)) : -1;
+    int number = ownNumber();
+    if (!inTextures) return number < int(respondingAt(0)) ? int(respondingAt(1 + number)) : -1;
+    if (number >= count || countsAt(number) == 0u) discardTexel();
+    return number;
 }
 int ownRow(int slot)
 {
-    return int(gl_GlobalInvocationID.x);
+    return inTextures ? slot : ownNumber();
 }
 const int localCells = 4;
 struct CellPlace {
@@ -105,6 +135,7 @@ uint cellKey(ivec3 cell, uint mask)
     h = h ^ (h >> 15u);
     return (h + uint(inBlock.x + 8 * inBlock.y + 64 * inBlock.z)) & mask;
 }
+#define motionsAt(i) uvec4(0)
 uniform usamplerBuffer sorted;
 uvec2 sortedAt(int i)
 {
@@ -114,6 +145,11 @@ uniform usamplerBuffer places;
 uvec4 placesAt(int i)
 {
     return texelFetch(places, i);
+}
+uniform usamplerBuffer sphereMotions;
+uvec4 sphereMotionsAt(int i)
+{
+    return texelFetch(sphereMotions, i);
 }
 uniform usamplerBuffer cells;
 uvec4 cellsAt(int i)
@@ -127,18 +163,13 @@ int sphereOf(int slot)
 {
     return int(sortedAt(slot).y);
 }
-uniform usamplerBuffer sphereMotions;
-uvec4 sphereMotionsAt(int i)
-{
-    return texelFetch(sphereMotions, i);
-}
 int memoryRow(int slot)
 {
-    return sphereOf(slot);
+    return inTextures ? slot : sphereOf(slot);
 }
 uvec4 motionAt(int slot)
 {
-    return sphereMotionsAt(sphereOf(slot));
+    return inTextures ? motionsAt(slot) : sphereMotionsAt(sphereOf(slot));
 }
 vec3 placeAt(int slot)
 {
@@ -164,9 +195,10 @@ int listedIn(uint counted)
 {
     return min(int(counted & CONTACTS), LIST);
 }
+#define marksAt(i) uint(0)
 bool rests(int slot)
 {
-    return false;
+    return RESTS && hasFlag(cellsAt(slot).w) && !marksWoken(marksAt(slot));
 }
 const int NO_PART = 0;
 const int IMPACT = 1;
@@ -293,10 +325,47 @@ bool isAlone(float count)
 {
     return count < 1.003f;
 }
-uniform usamplerBuffer counts;
-uint countsAt(int i)
+#define bodiesAt(i, k) vec4(0)
+struct BodySphere {
+    vec3 arm;
+    float perMass;
+    mat3 perInertia;
+    float turning;
+};
+struct BodyMotion {
+    vec3 shift;
+    vec3 turn;
+};
+BodyMotion bodyMotion(BodySphere body, vec3 impulse)
 {
-    return texelFetch(counts, i).x;
+    return BodyMotion(impulse * body.perMass, body.perInertia * cross(body.arm, impulse));
+}
+vec3 motionAt(BodySphere body, BodyMotion motion)
+{
+    return motion.shift + cross(motion.turn, body.arm);
+}
+vec3 wayAt(BodySphere body, BodyMotion motion)
+{
+    vec3 across = cross(motion.turn, body.arm);
+    vec3 halfTurn = 0.5 * motion.turn;
+    return motion.shift + (across + cross(halfTurn, across)) / (1.0 + dot(halfTurn, halfTurn));
+}
+vec4[3] packedBody(BodySphere body)
+{
+    mat3 t = body.perInertia;
+    return vec4[3](vec4(body.arm, body.perMass), vec4(t[0][0], t[1][1], t[2][2], body.turning), vec4(t[1][2], t[0][2], t[0][1], 0.0));
+}
+BodySphere bodySphereAt(int sphere)
+{
+    vec4 arm = bodiesAt(sphere, 0);
+    vec4 d = bodiesAt(sphere, 1);
+    return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodiesAt(sphere, 2).xyz), d.w);
+}
+void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
+{
+    BodyMotion more = bodyMotion(body, impulse);
+    motion.shift += more.shift;
+    motion.turn += more.turn;
 }
 uniform usamplerBuffer lists;
 uint listsAt(int i, int e)
@@ -347,21 +416,36 @@ bool holds(int slot, int other)
     }
     return found;
 }
+BodySphere bodyOf(int slot, Sphere sphere)
+{
+    if (!BODIES || sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    return bodySphereAt(sphereOf(slot));
+}
 struct Pair {
     Sphere sphere;
     vec3 apart;
     PairContact contact;
     bool meets;
     vec2 material;
+    BodySphere body;
 };
 Sphere own;
+BodySphere ownBody;
 void loadSphere(int slot)
 {
     own = sphereAt(slot);
+    ownBody = bodyOf(slot, own);
+}
+vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
+{
+    if (!BODIES) return vec2(sphere.weight);
+    vec3 across = cross(body.arm, n);
+    float turning = dot(across, body.perInertia * across);
+    return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
 }
 vec2 ownWeights(vec3 n)
 {
-    return vec2(own.weight);
+    return weightsOf(own, ownBody, n);
 }
 uniform usamplerBuffer effectiveCounts;
 uint effectiveCountsAt(int i)
@@ -374,8 +458,7 @@ float effectiveCountOf(int slot, Sphere sphere)
 }
 vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
-    vec2 other = vec2(pair.sphere.weight);
-    return ownWeights(n) * effective.x + other * effective.y;
+    return ownWeights(n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 Pair pairOf(int slot, int other, float bounceFrom)
 {
@@ -386,6 +469,7 @@ Pair pairOf(int slot, int other, float bounceFrom)
                                bounceFrom, slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
+    pair.body = bodyOf(other, pair.sphere);
     return pair;
 }
 float mostRemembered(float start, float size, float weight)
@@ -466,7 +550,11 @@ vec4 earlierTotalsAt(int i, int k)
 {
     return texelFetch(earlierTotals, 2 * (i) + (k));
 }
-uniform float momentum;
+uniform samplerBuffer velocities;
+vec4 velocitiesAt(int i, int k)
+{
+    return texelFetch(velocities, 2 * (i) + (k));
+}
 struct Moved {
     vec3 velocity;
     vec3 move;
@@ -477,13 +565,13 @@ vec3 ahead(vec3 latest, vec3 before)
 {
     return momentum == 0.0 ? latest : latest + (latest - before) * momentum;
 }
-uniform samplerBuffer velocities;
-vec4 velocitiesAt(int i, int k)
-{
-    return texelFetch(velocities, 2 * (i) + (k));
-}
 Moved movedAt(int slot)
 {
+    if (inTextures && !SPREADS) {
+        Sphere sphere = sphereAt(slot);
+        return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
+                     ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+    }
     if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
     return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
 }
@@ -527,20 +615,39 @@ Constraint constraintOf(int slot, int e)
 {
     return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
 }
-vec4 solveEntry(int slot, int e, out vec3 normal)
+struct NearCollider {
+    vec3 normal;
+    float gap;
+    vec3 velocity;
+    float friction;
+};
+vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
 {
-    int row = ownRow(slot);
-    Constraint asked = constraintOf(slot, e);
-    normal = asked.normal;
-    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
-    putEarlierImpulses(row, e, next);
-    return next;
+    vec4 texels[2 * MOST_COLLIDERS];
+    for (int k = 0; k < MOST_COLLIDERS; ++k) {
+        texels[2 * k] = vec4(near[k].normal, near[k].gap);
+        texels[2 * k + 1] = vec4(near[k].velocity, near[k].friction);
+    }
+    return texels;
+}
+#define collidersAt(i, k) vec4(0)
+NearCollider colliderOf(int slot, int k)
+{
+    vec4 place = collidersAt(sphereOf(slot), 2 * k);
+    vec4 surface = collidersAt(sphereOf(slot), 2 * k + 1);
+    return NearCollider(place.xyz, place.w, surface.xyz, surface.w);
+}
+bool pressesOn(NearCollider near)
+{
+    return near.gap < 1e20 && own.weight > 0.0;
 }
 uniform samplerBuffer warmStart;
 vec4 warmStartAt(int i)
 {
     return texelFetch(warmStart, i);
 }
+#define putNextColliderImpulses(i, k, value)
+#define putAllNextColliderImpulses(i, values)
 layout(std430) writeonly buffer NextTotals { vec4 nextTotalsBuffer[]; };
 #define putNextTotals(i, k, value) nextTotalsBuffer[2 * (i) + (k)] = (value)
 void putAllNextTotals(int i, vec4 values[2])
@@ -554,6 +661,28 @@ void putAllNextVelocities(int i, vec4 values[2])
     for (int k = 0; k < 2; ++k) putNextVelocities(i, k, values[k]);
 }
 uniform float nextMomentum;
+vec4 solveEntry(int slot, int e, out vec3 normal)
+{
+    int row = ownRow(slot);
+    if (inTextures) {
+        normal = normalsAt(row, e).xyz;
+        return impulsesAt(row, e);
+    }
+    Constraint asked = constraintOf(slot, e);
+    normal = asked.normal;
+    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    putEarlierImpulses(row, e, next);
+    return next;
+}
+vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
+{
+    if (ownCount <= 0.0) return vec4(0.0);
+    vec2 weights = stepWeights(ownWeights(near.normal) * ownCount, ownCount);
+    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
+                                  near.friction);
+    Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
+    return vec4(next.impulse, next.apart);
+}
 void main()
 {
     int slot = ownSlot(count);
@@ -567,6 +696,22 @@ void main()
         vec4 push = solveEntry(slot, e, normal);
         impulse += push.xyz;
         shift += normal * abs(push.w);
+    }
+    if (COLLIDERS) {
+        int row = memoryRow(slot);
+        vec4 next[MOST_COLLIDERS];
+        for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
+        for (int k = 0; k < MOST_COLLIDERS; ++k) {
+            NearCollider near = colliderOf(slot, k);
+            if (!pressesOn(near)) break;
+            vec4 push = colliderImpulsesAt(row, k);
+            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
+            impulse += next[k].xyz;
+            shift += near.normal * next[k].w;
+            putEarlierColliderImpulses(row, k, push);
+            putColliderImpulses(row, k, next[k]);
+        }
+        putAllNextColliderImpulses(slot, next);
     }
     putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
     putNextTotals(slot, 1, vec4(shift, 0.0));

@@ -4,6 +4,8 @@
 #define BLOCK 16
 #define LANES 64
 #define VERTICES 2
+#define PINS false
+#define RELEASE false
 #define VALUES samplerBuffer
 int firstElement(int molecule, int elements)
 {
@@ -101,6 +103,14 @@ float scale = 1.0;
 float phase = 0.0;
 bool released = false;
 uint seed;
+float age = 0.0;
+float span = 0.0;
+bool touched = false;
+const bool isMortal = false;
+bool taken()
+{
+    return !isMortal || span > 0.0;
+}
 void loadRecord(int molecule)
 {
     vec4 record = valueOf(oldRecords, molecule);
@@ -115,6 +125,11 @@ vec4 recordNow()
 }
 const float inverseMass[VERTICES] = float[](1.0, 0.5);
 const bool pinned[VERTICES] = bool[](false, false);
+float pullOnPins()
+{
+    float pull = 0.0;
+    return pull;
+}
 vec3 meanProbe()
 {
     vec3 sum = probe[0];
@@ -252,10 +267,13 @@ vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 a, vec3 n)
 #define FALL(i) (PULLED(i) + LOAD(i))
 bool isHeld(bool pinned)
 {
-    return false;
+    return PINS && pinned && !released;
 }
 void letGo(int step)
 {
+    if (!RELEASE || step > 0) return;
+    float pulled = pullOnPins();
+    released = released || isReleased(pulled, releaseForce, seed, frame, releaseChance);
 }
 void sampleFrame()
 {
@@ -509,6 +527,9 @@ vec4 capsuleSurface(vec3 x, vec3 axis, float perLength, vec3 aside, float radius
     return vec4(r > noDirection ? off / r : aside, r - radius);
 }
 const float contactRadius = 0.0;
+void takeRadius(float scale, float lived)
+{
+}
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 vec4 planeSurface(vec3 origin, vec3 x, vec3 normal)
 {
@@ -818,6 +839,7 @@ void main()
     bool wasReleased = released;
     bool moved = false;
     moved = followAnchor();
+    takeRadius(scale, min((age + frameDuration) / max(span, 1e-9), 1.0));
     beginSolver();
     sampleFrame();
     run();

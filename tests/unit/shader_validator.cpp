@@ -73,8 +73,26 @@ gpu::ShaderSource Validator::resolve(const std::string& file, const Defines& def
     std::optional<gpu::ArrayTable> table;
     const bool compute = std::string_view(header) == gpu::header430();
     if (!arrays.empty())
-        table.emplace(concat(root, "/", arrays, "/arrays.txt"), compute ? Form::buffers : Form::textures);
+        table.emplace(concat(root, "/", arrays, "/arrays.txt"), compute ? Form::buffers : Form::textures,
+                      holds);
     return gpu::resolveShader(root, file, defines, texts, header, table ? &*table : nullptr);
+}
+
+void Validator::addContact(const std::string& pass, const ContactFacts& facts, const ContactGroupFacts& group,
+                           Defines defines) {
+    arrays = "contact";
+    holds = facts.names();
+    for (const auto& files : {facts.files(), group.files()})
+        for (const auto& [name, text] : files)
+            generated[name] = text;
+    for (const Defines& more : {facts.constants(), group.constants()})
+        defines.insert(defines.end(), more.begin(), more.end());
+    defines.insert(defines.end(), {"LIST 24", "NEIGHBORS 4", "AHEAD 4", concat("NEAR ", ContactPlan::near),
+                                   concat("MOST_COLLIDERS ", ContactPlan::mostColliders)});
+    const std::string file = concat("contact/", pass, ".pass.glsl");
+    if (!facts.textures) return add(file, defines, gpu::header430());
+    defines.emplace_back("ROW_BITS 6");
+    addBoth(file, defines);
 }
 
 void Validator::addKernel(const Plan& plan, const KernelOptions& options) {
@@ -124,7 +142,7 @@ void Validator::addPicture(const std::string& file, Defines defines) {
     for (const char* name : picturesFlags) {
         const bool wanted = has(name);
         defines.erase(std::remove(defines.begin(), defines.end(), name), defines.end());
-        defines.push_back(gpu::flag(name, wanted));
+        defines.push_back(gpu::constant(name, wanted));
     }
     for (const bool layered : {false, true}) {
         if (layered && !inTextures) break;

@@ -8,6 +8,7 @@
 
 #include "gpu/shader_source.h"
 #include "scene/scene.h"
+#include "simulate/contact/facts.h"
 #include "simulate/fused_kernel.h"
 #include "support/scratch.h"
 
@@ -28,10 +29,14 @@ std::string complaint(const std::string& file, const gpu::ShaderSource& source);
 class Validator {
   public:
     std::map<std::string, std::string> generated;
-    std::string arrays;  // the folder of shaders whose table of arrays they name; empty: none
+    std::string arrays;           // the folder of shaders whose table of arrays they name; empty: none
+    std::set<std::string> holds;  // of the table
 
     void add(const std::string& file, const Defines& defines, const char* header);
     void addKernel(const Plan& plan, const KernelOptions& options);
+    // A pass of contact, in the form that the facts name.
+    void addContact(const std::string& pass, const ContactFacts& facts, const ContactGroupFacts& group,
+                    Defines defines);
     // All that is drawn of a group in fragments.
     void addFragments(const Plan& plan, KernelOptions options);
     // For each form of the state: with TEXTURES among the defines, in layers as well. What needs a buffer is
@@ -54,6 +59,17 @@ class Validator {
     std::set<std::string> seen_;
     std::vector<Shader> shaders_;
 };
+
+// Calls visit(facts) for all sets of some facts, beside those that hold anyway.
+template <typename Facts, typename Visit>
+void forFacts(const Facts& begin, const std::vector<bool Facts::*>& some, const Visit& visit) {
+    for (size_t bits = 0; bits < size_t(1) << some.size(); ++bits) {
+        Facts facts = begin;
+        for (size_t i = 0; i < some.size(); ++i)
+            if (bits >> i & 1) facts.*some[i] = true;
+        visit(facts);
+    }
+}
 
 template <typename Shape>
 Field field(Shape shape, bool boxed = false) {

@@ -25,10 +25,10 @@ const char* const rows =
     "anchors | both     | float4 | list*slot | step  | -   | always      | anchors\n"
     "words   | buffers  | record | 11        | step  | 0   | always      | counts\n";
 
-ArrayTable tableOf(const std::string& text, Form form) {
+ArrayTable tableOf(const std::string& text, Form form, const std::set<std::string>& holds = {"rest"}) {
     const test::Scratch scratch;
     writeFile(scratch.path("arrays.txt"), text);
-    return {scratch.path("arrays.txt"), form};
+    return {scratch.path("arrays.txt"), form, holds};
 }
 
 std::string messageOf(const std::string& row) {
@@ -108,5 +108,23 @@ TEST_CASE("what is wrong with a row or a name is told where it stands", "[arrays
                       Contains("expected #pragma reads, writes or updates"));
     CHECK_THROWS_WITH(shaderOf(buffers, "#pragma reads lists\n#pragma updates lists\n"),
                       Contains("updated after it was read"));
-    CHECK_THROWS_WITH(shaderOf(buffers, "#pragma reads pairs\n"), Contains("there is no array \"pairs\""));
+}
+
+TEST_CASE("an array that a form or a scene lacks takes nothing", "[arrays]") {
+    using Catch::Contains;
+    const ArrayTable buffers = tableOf(rows, Form::buffers, {"rest"}),
+                     without = tableOf(rows, Form::buffers, {});
+    CHECK((buffers.find("totals")->isNeeded && !without.find("totals")->isNeeded));
+    CHECK(shaderOf(buffers, "#pragma reads pairs\n") == "#define pairsAt(i) uvec2(0)\n");
+    CHECK(
+        shaderOf(without, "#pragma updates totals\n#pragma reads totals\n") ==
+        "#define putTotals(i, k, value)\n#define putAllTotals(i, values)\n#define totalsAt(i, k) vec4(0)\n");
+    CHECK_THAT(shaderOf(buffers, "#pragma writes totals when rest buffers\n"), Contains("buffer Totals"));
+    CHECK(shaderOf(buffers, "#pragma writes totals when !rest\n") ==
+          "#define putTotals(i, k, value)\n#define putAllTotals(i, values)\n");
+    // what buffers update and fragments write anew
+    const std::string both = "#pragma updates totals when buffers\n#pragma writes totals\n";
+    CHECK_THAT(shaderOf(buffers, both), Contains("buffer Totals") && Contains("totalsAt(int i, int k)"));
+    CHECK_THAT(shaderOf(tableOf(rows, Form::textures), both),
+               Contains("#undef putTotals") && Contains("out vec4 newTotals[2]"));
 }

@@ -4,6 +4,7 @@
 #include "gpu/array_table.h"
 #include "gpu/shader_source.h"
 #include "scene/collider_kinds.h"
+#include "simulate/contact/facts.h"
 #include "simulate/fused_kernel.h"
 #include "support/catch.h"
 #include "support/shapes.h"
@@ -43,8 +44,10 @@ TEST_CASE("kernels have the text that is kept", "[golden-shaders]") {
 TEST_CASE("a pass of contact has the text that is kept, in both forms", "[golden-shaders]") {
     using Form = gpu::ArrayTable::Form;
     const auto solve = [](Form form, const std::vector<std::string>& more, const char* header) {
-        const gpu::ArrayTable table(shaders + "/contact/arrays.txt", form);
-        std::vector<std::string> defines = {"LIST 24", "MOST_COLLIDERS 3", "REMEMBERS"};
+        const ContactFacts facts = {.textures = form == Form::textures, .remembers = true};
+        const gpu::ArrayTable table(shaders + "/contact/arrays.txt", form, facts.names());
+        std::vector<std::string> defines = facts.constants();
+        defines.insert(defines.end(), {"LIST 24", "MOST_COLLIDERS 3"});
         defines.insert(defines.end(), more.begin(), more.end());
         return gpu::resolveShader(shaders, "contact/response/solve.pass.glsl", defines, {}, header, &table)
             .text;

@@ -85,7 +85,7 @@ std::string kernelOf(const Scene& scene, const KernelOptions& options = {}) {
 std::set<std::string> definesOf(const Scene& scene) {
     std::set<std::string> out;
     for (const std::string& define : kernelProgram(compile(scene), 0, {}).defines)
-        out.insert(define.substr(0, define.find(' ')));
+        if (!define.ends_with(" false")) out.insert(define.substr(0, define.find(' ')));
     return out;
 }
 
@@ -299,8 +299,8 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
          {"respond(", "findContacts(int done)\n{", "colliderParameters"},
          [](Scene& s) { s.colliders.clear(); }},
         {"FIELDS", {"gustFromTile(", "fieldParameters"}, [](Scene& s) { s.fields.clear(); }},
-        {"PINS", {"pullOnPins()\n{", "bool[](true"}, [](Scene& s) { s.groups[0].held = false; }},
-        {"RELEASE", {"pullOnPins()\n{"}, [](Scene& s) { s.groups[0].release.reset(); }},
+        {"PINS", {"max(pull, ", "bool[](true"}, [](Scene& s) { s.groups[0].held = false; }},
+        {"RELEASE", {"max(pull, "}, [](Scene& s) { s.groups[0].release.reset(); }},
         {"SPRINGS", {"= sprung("}, [](Scene& s) { s.groups[0].molecule.springs.clear(); }},
         {"DIRECTIONAL_DRAG",
          {},

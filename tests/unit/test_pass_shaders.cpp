@@ -202,56 +202,52 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
     validator.generated = generate({}, collidersToValidate());
-    validator.arrays = "contact";
-    const Defines common{"LIST 24",
-                         "NEIGHBORS 4",
-                         concat("NEAR ", ContactPlan::near),
-                         concat("MOST_COLLIDERS ", ContactPlan::mostColliders),
-                         "REMEMBERS",
-                         "BLOCK 16",
-                         "POSITION_ELEMENTS 3",
-                         "VERTICES 4",
-                         "SPHERES 6",
-                         "HISTORY",
-                         "NO_HISTORY 1e30",
-                         "LANES 256",
-                         "CELL_TILE 1024",
-                         "LINE_WORDS 32"};
-    const auto add = [&](const std::string& file, const Defines& set, Defines more = {}) {
-        more.insert(more.end(), set.begin(), set.end());
-        more.insert(more.end(), common.begin(), common.end());
-        more.emplace_back("STATE_ELEMENTS 12");
-        validator.add(concat("contact/", file, ".pass.glsl"), more, gpu::header430());
+    using Facts = ContactFacts;
+    using GroupFacts = ContactGroupFacts;
+    const auto add = [&](const std::string& pass, const Facts& facts, const GroupFacts& group = {},
+                         Defines more = {}) {
+        more.insert(more.end(), {"BLOCK 16", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 12", "VERTICES 4",
+                                 "SPHERES 6", "HISTORY", "NO_HISTORY 1e30", "LANES 256", "CELL_TILE 1024",
+                                 "LINE_WORDS 32", "CONTACT_RADIUS 0.1", "CONTACT_GROWTH vec2(1.0, 2.0)"});
+        validator.addContact(pass, facts, group, more);
     };
-    for (const Defines& set : combinations({"COUNTED", "RESTING", "STAGGERED"})) {
-        add("grid/order", set);
-        add("grid/spheres", set);
-    }
-    for (const char* file : {"grid/starts", "grid/members"})
-        add(file, {"COUNTED"});
-    for (const Defines& set : combinations({"SECOND_GRID", "SWEPT"}))
-        add("search/neighbors", set, {"STAGGERED"});
-    for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
-        add("search/find", set);
-        for (const Defines& spread : {Defines{}, Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}}) {
-            for (const char* file : {"prepare", "solve", "store"})
-                add(concat("response/", file), set, spread);
-            Defines first = spread;
-            first.emplace_back("FIRST");
-            add("response/solve", set, first);
-        }
-    }
-    for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {
-        for (const char* file : {"awake", "wake", "load_change", "rest"})
-            add(concat("rest/", file), set, {"RESTING"});
-        add("search/find", set, {"RESTING", "AMONG_RESTING"});
-    }
-    for (const Defines& set : combinations({"RESTING", "TRIANGLES", "RIGID", "LIFE"})) {
-        for (const char* file : {"grid/spheres", "response/effective_sum", "response/velocities"})
-            add(file, set, {"BODIES"});
-        add("response/apply", set, {"APPLIES", "MANY", "BODIES"});
-    }
-    add("response/apply", {"RESTING"}, {"APPLIES"});
+    const Facts remembers = {.remembers = true};
+    forFacts(remembers, {&Facts::counted, &Facts::rests, &Facts::staggers}, [&](const Facts& facts) {
+        add(facts.counted ? "grid/order_counted" : "grid/order_sorted", facts);
+        add("grid/spheres", facts);
+    });
+    for (const char* pass : {"grid/starts", "grid/members"})
+        add(pass, {.counted = true});
+    forFacts(Facts(), {&Facts::staggers, &Facts::sweeps}, [&](const Facts& facts) {
+        for (const bool second : {false, true})
+            add("search/neighbors", facts, {}, {gpu::constant("SECOND_GRID", second)});
+    });
+    forFacts(remembers, {&Facts::self, &Facts::sweeps, &Facts::colliders}, [&](Facts facts) {
+        add("search/find", facts);
+        facts.rests = true;
+        for (const char* pass :
+             {"search/find_awake", "search/find_marked", "rest/awake", "rest/wake", "rest/load_change"})
+            add(pass, facts);
+        for (const bool release : {false, true})
+            add("rest/rest", facts, {.release = release});
+    });
+    forFacts(remembers, {&Facts::rests, &Facts::colliders, &Facts::spreads, &Facts::rigid},
+             [&](const Facts& facts) {
+                 for (const char* pass : {"prepare", "solve", "solve_first", "store"})
+                     add(concat("response/", pass), facts);
+             });
+    const Facts spreads = {.remembers = true, .spreads = true, .colliders = true, .rigid = true};
+    forFacts(GroupFacts(), {&GroupFacts::triangles, &GroupFacts::rigid}, [&](GroupFacts group) {
+        for (const char* pass : {"effective_sum", "velocities", "apply"})
+            add(concat("response/", pass), spreads, group);
+        for (const Defines& life : {Defines{}, Defines{"LIFE"}})
+            add("grid/spheres", spreads, group, life);
+        group.collides = group.severalColliders = true;
+        add("grid/spheres", spreads, group);
+    });
+    for (const bool rests : {false, true})
+        add("response/apply", {.remembers = true, .rests = rests});
+    add("response/apply", Facts());
     CHECK(validator.count() > 80);
     validator.check();
 }

@@ -15,46 +15,59 @@
 using namespace shoal;
 using namespace shoal::test;
 
+namespace {
+
+// A pass that is told which of its constants hold: those that `set` names.
+void addPass(Validator& validator, const std::string& file, Defines set) {
+    for (const char* name : {"PINS", "RELEASE"}) {
+        const bool holds = std::erase(set, name) > 0;
+        set.push_back(gpu::constant(name, holds));
+    }
+    validator.addBoth(concat("passes/", file), set);
+}
+
+}  // namespace
+
 TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
     validator.generated = generate(fieldsToValidate(), collidersToValidate());
-    validator.addBoth("passes/fullscreen.vert", {});
+    addPass(validator, "fullscreen.vert", {});
     for (const Defines& set : combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "RECORDS"}))
-        validator.addBoth("passes/advect.frag", set);
+        addPass(validator, "advect.frag", set);
     for (const Defines& set : combinations({"LEAPFROG", "FIELDS", "FORCES"})) {
-        validator.addBoth("passes/advect.frag", set);
-        validator.addBoth("passes/stage.frag", set);
+        addPass(validator, "advect.frag", set);
+        addPass(validator, "stage.frag", set);
     }
     for (const Defines& set : combinations({"VERLET", "PINS"})) {
-        validator.addBoth("passes/thrust.frag", set);
+        addPass(validator, "thrust.frag", set);
         Defines forced = set;
         forced.emplace_back("FORCES");
-        validator.addBoth("passes/collide.frag", set);
-        validator.addBoth("passes/collide.frag", forced);
+        addPass(validator, "collide.frag", set);
+        addPass(validator, "collide.frag", forced);
     }
     for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
-        validator.addBoth("passes/collide.frag", pins);
+        addPass(validator, "collide.frag", pins);
         for (const Defines& set :
              std::vector<Defines>{{"ACCELERATION"}, {"LEAPFROG", "ACCELERATION"}, {"STAGES 4"}}) {
             Defines sprung = pins;
             sprung.insert(sprung.end(), set.begin(), set.end());
             sprung.emplace_back("SPRINGS");
-            validator.addBoth("passes/collide.frag", sprung);
+            addPass(validator, "collide.frag", sprung);
         }
         for (Defines set : combinations({"LEAPFROG", "ACCELERATION", "MUSCLES 2"})) {
             set.insert(set.end(), pins.begin(), pins.end());
             set.emplace_back("SPRINGS");
-            validator.addBoth("passes/restore.frag", set);
-            validator.addBoth("passes/records.frag", set);
+            addPass(validator, "restore.frag", set);
+            addPass(validator, "records.frag", set);
             set.emplace_back("SPRING_DAMPING");
-            validator.addBoth("passes/restore.frag", set);
-            validator.addBoth("passes/records.frag", set);
+            addPass(validator, "restore.frag", set);
+            addPass(validator, "records.frag", set);
         }
     }
     for (const Defines& set : combinations({"LEAPFROG", "DIRECTIONAL_DRAG", "SPRINGS"}))
-        validator.addBoth("passes/normals.frag", set);
-    validator.addBoth("passes/watch.frag", {fastestDefine()});
+        addPass(validator, "normals.frag", set);
+    addPass(validator, "watch.frag", {fastestDefine()});
     CHECK(validator.count() > 20);
     validator.check();
 }
@@ -63,48 +76,48 @@ TEST_CASE("the passes of contact in fragments are sound in desktop and in embedd
     if (!hasValidator()) return;
     Validator validator;
     validator.generated = generate({}, collidersToValidate());
-    validator.addBoth("passes/touched.frag", {"ROW_BITS 6"});
-    validator.addBoth("passes/touched.frag", {"ROW_BITS 6", "PINS", "RELEASE"});
-    validator.arrays = "contact";
-    const auto add = [&](const char* file, Defines set = {}) {
-        set.insert(set.end(), {"ROW_BITS 6", "LIST 24", "NEIGHBORS 4", concat("NEAR ", ContactPlan::near),
-                               concat("MOST_COLLIDERS ", ContactPlan::mostColliders)});
-        validator.addBoth(concat("contact/", file, ".pass.glsl"), set);
+    addPass(validator, "touched.frag", {"ROW_BITS 6", "PINS"});
+    addPass(validator, "touched.frag", {"ROW_BITS 6", "PINS", "RELEASE"});
+    using Facts = ContactFacts;
+    using GroupFacts = ContactGroupFacts;
+    const auto add = [&](const std::string& pass, Facts facts, const GroupFacts& group = {},
+                         const Defines& more = {}) {
+        facts.textures = true;
+        Defines defines = {gpu::constant("SECOND_GRID", false)};
+        defines.insert(defines.end(), more.begin(), more.end());
+        validator.addContact(pass, facts, group, defines);
     };
-    for (const char* file :
+    for (const char* pass :
          {"grid/keys", "grid/order", "grid/slots", "search/find", "search/neighbors", "response/nearest"})
-        add(file);
-    add("grid/spheres", {"SPHERES 4"});
-    add("grid/spheres", {"SPHERES 4", "PINS", "RELEASE"});
-    for (Defines set : combinations({"SELF", "STAGGERED", "SWEPT", "WALLS"})) {
-        set.emplace_back("REMEMBERS");
-        for (const char* file : {"search/find", "search/neighbors"})
-            add(file, set);
-    }
-    for (const Defines& spread : {Defines{}, Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}}) {
-        for (Defines set : combinations({"WALLS", "ENTRIES"})) {
-            set.insert(set.end(), spread.begin(), spread.end());
-            set.emplace_back("REMEMBERS");
-            for (const char* file : {"prepare", "constrain", "solve", "store"})
-                add(concat("response/", file).c_str(), set);
-        }
-    }
-    const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
-                           "STATE_ELEMENTS 6", "VERTICES 4",       "SPHERES 6"};
-    for (Defines set : combinations({"TRIANGLES", "CONSTANTS", "LIFE", "RIGID"})) {
-        const bool rigid = std::find(set.begin(), set.end(), "RIGID") != set.end();
+        add(pass, Facts());
+    for (const bool release : {false, true})
+        add("grid/spheres", Facts(), {.pins = release, .release = release, .vertexTextures = true},
+            {"SPHERES 4"});
+    const Facts remembers = {.remembers = true};
+    forFacts(remembers, {&Facts::self, &Facts::sweeps, &Facts::colliders}, [&](Facts facts) {
+        for (const char* pass : {"search/find", "search/neighbors"})
+            add(pass, facts);
+        facts.staggers = true;
+        add("search/neighbors_in_both", facts);
+    });
+    forFacts(remembers, {&Facts::colliders, &Facts::spreads, &Facts::rigid}, [&](const Facts& facts) {
+        for (const char* pass :
+             {"prepare_entries", "prepare", "constrain", "solve_entries", "solve", "store"})
+            add(concat("response/", pass), facts);
+    });
+    const Defines sizes = {
+        "LAYERED",    "STATE_WIDTH 1024", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6",
+        "VERTICES 4", "SPHERES 6",        "CONTACT_RADIUS 0.1",  "CONTACT_GROWTH vec2(1.0, 2.0)"};
+    const Facts spreads = {.remembers = true, .spreads = true, .colliders = true, .rigid = true};
+    for (Defines set : combinations({"CONSTANTS", "LIFE"})) {
         set.insert(set.end(), sizes.begin(), sizes.end());
-        Defines walls = set;
-        walls.insert(walls.end(), {"WALLS", "CONTACT_RADIUS 0.1"});
-        if (rigid) walls.emplace_back("BODIES");
-        add("grid/colliders", walls);
-        if (rigid) set.emplace_back("BODIES");
-        for (const char* file : {"grid/spheres", "response/effective_sum", "response/velocities"})
-            add(file, set);
-        set.emplace_back("APPLIES");
-        add("response/gains", set);
-        set.emplace_back("MANY");
-        add("response/gains", set);
+        forFacts(GroupFacts{.severalColliders = true}, {&GroupFacts::triangles, &GroupFacts::rigid},
+                 [&](const GroupFacts& group) {
+                     for (const char* pass : {"effective_sum", "velocities", "gains_of_many", "gains"})
+                         add(concat("response/", pass), spreads, group, set);
+                     for (const char* pass : {"grid/colliders", "grid/spheres"})
+                         add(pass, spreads, group, set);
+                 });
     }
     CHECK(validator.count() > 90);
     validator.check();
@@ -115,11 +128,11 @@ TEST_CASE("each field and each collider is sound GLSL by itself", "[shaders]") {
     Validator validator;
     for (const Field& one : fieldsToValidate()) {
         validator.generated = generate({one}, collidersToValidate());
-        validator.addBoth("passes/advect.frag", {"LEAPFROG", "SPRINGS", "FIELDS"});
+        addPass(validator, "advect.frag", {"LEAPFROG", "SPRINGS", "FIELDS"});
     }
     for (const Collider& one : collidersToValidate()) {
         validator.generated = generate(fieldsToValidate(), {one});
-        validator.addBoth("passes/collide.frag", {});
+        addPass(validator, "collide.frag", {});
     }
     validator.check();
 }
@@ -152,8 +165,8 @@ TEST_CASE("names of fields and colliders cannot leave their comment", "[shaders]
     fields[0].name = colliders[0].name = "wind\n}}} #error \\";
     Validator validator;
     validator.generated = generate(fields, colliders);
-    validator.addBoth("passes/advect.frag", {"FIELDS"});
-    validator.addBoth("passes/collide.frag", {});
+    addPass(validator, "advect.frag", {"FIELDS"});
+    addPass(validator, "collide.frag", {});
     validator.check();
 }
 

@@ -1,89 +1,35 @@
-// The spheres of one group, from the state, in the order of their numbers. With buffers a lane writes the key of its cell as well, with the
-// sphere's number or, with COUNTED, with how many spheres of the cell have come before it; and the colliders near it.
-#if defined(TEXTURES) && !defined(LAYERED)
-#include "contact/grid/textures_sphere.glsl"
-#else
-#include "contact/grid/state_sphere.glsl"
-#endif
-#pragma writes spherePlaces sphereMotions sphereCells
-#if defined(BODIES) || defined(RIGID)
-#pragma writes bodies
-#endif
-
-uniform int label;  // of the group's first molecule
-
-#ifndef TEXTURES
-#ifdef RESTING
-#pragma updates loads
+// The spheres of one group, from the state, in the order of their numbers. With buffers a lane writes the key of its cell as well, and the
+// colliders near it. C++ chooses the files: how the state has a sphere, how its key is kept, and how colliders are looked for.
+#include "generated/sphere.glsl"
 #include "contact/rest/states.glsl"
+#pragma writes spherePlaces sphereMotions sphereCells bodies
+#pragma updates loads when buffers
+#include "generated/key.glsl"
+#include "generated/sphere_colliders.glsl"
 
-uniform bool wakes;  // all molecules of the group
-#elif defined(REMEMBERS)
-#pragma writes loads
-#endif
-#ifdef WALLS
-#pragma writes colliders
-#endif
-#ifdef COUNTED
-#include "contact/grid/cell_counts.glsl"
-#pragma writes arrivals
-#else
-#pragma writes sorted
-
-uniform int keys;  // of the table of cells
-#endif
-#ifdef STAGGERED
+uniform int label;       // of the group's first molecule
+uniform bool wakes;      // all molecules of the group
 uniform vec3 cellShift;  // m, of a second grid
 uniform bool onlyKeys;   // the spheres have been written
-#else
-const vec3 cellShift = vec3(0.0);
-const bool onlyKeys = false;
-#endif
-
-void putKey(int sphere, uint key)
-{
-#ifdef COUNTED
-    if (isBehindLast()) return;
-    putArrivals(sphere, uvec2(key, atomicAdd(cellCounts[key], 1u)));
-    atomicAdd(cellCounts[placeOfTile(int(key) / CELL_TILE)], 1u);
-#else
-    putSorted(sphere, uvec2(key, uint(sphere)));
-#endif
-}
-#else
-const vec3 cellShift = vec3(0.0);
-#endif
 
 void main()
 {
+    const bool isSecond = STAGGERS && !inTextures;
     int lane = ownLane();
     int molecule = lane / SPHERES;
     int k = lane - molecule * SPHERES;
     int sphere = firstNumber + lane;
     StateSphere own = sphereOfState(molecule, k);
-    CellPlace place = cellPlaceOf(own, sphere, cellShift);
-    bool rests = false;
-#ifndef TEXTURES
-    putKey(sphere, cellKey(place.cell, uint(keys - 1)));
-    if (onlyKeys) return;
-#ifdef RESTING
-    rests = isResting(loadsAt(sphere).w) && own.lives && !own.fresh && !wakes;
+    CellPlace place = cellPlaceOf(own, sphere, isSecond ? cellShift : vec3(0.0));
+    putKey(sphere, place.cell);
+    if (isSecond && onlyKeys) return;
+    bool rests = RESTS && isResting(loadsAt(sphere).w) && own.lives && !own.fresh && !wakes;
     if (rests) own.velocity = vec3(0.0);
     if (!rests) putLoads(sphere, vec4(0.0));
-#elif defined(REMEMBERS)
-    putLoads(sphere, vec4(0.0));
-#endif
-#ifdef WALLS
-    putAllColliders(sphere, packedColliders(nearColliders(own, k)));
-#endif
-#endif
-#ifdef RIGID
+    putNearColliders(sphere, own, k);
     BodySphere body = bodySphereOf(molecule, own.position);
-    own.weight = body.perMass;
+    if (RIGID) own.weight = body.perMass;
     putAllBodies(sphere, packedBody(body));
-#elif defined(BODIES)
-    putAllBodies(sphere, vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)));
-#endif
     putSpherePlaces(sphere, uvec4(floatBitsToUint(place.local), uint(label + molecule)));
     putSphereMotions(sphere, uvec4(floatBitsToUint(own.velocity), withFlag(own.weight, own.fresh)));
     putSphereCells(sphere, uvec4(uvec3(place.cell), withFlag(own.radius, rests)));

@@ -2,6 +2,7 @@
 #include "contact/grid/shape.glsl"
 #include "physics/cells.glsl"
 #include "contact/flags.glsl"
+#include "contact/response/body.glsl"
 
 uniform VALUES oldState;
 uniform VALUES oldRecords;
@@ -30,25 +31,25 @@ StateSphere sphereOfState(int molecule, int k)
     own.anchor = record.xyz;
     own.lives = true;
     own.fresh = false;
-#ifdef TRIANGLES
-    ivec3 corners = k < VERTICES ? ivec3(k) : ivec3(shape.xyz);
-    vec3 position = (packedVertex(oldState, first, 0, corners.x) + packedVertex(oldState, first, 0, corners.y) +
-                     packedVertex(oldState, first, 0, corners.z)) / 3.0;
-    vec3 velocity = (packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) +
-                     packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
-                     packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
-    // an impulse on the middle is a third on each corner
-    float weight = (weightOf(shapeOf(corners.x), released) + weightOf(shapeOf(corners.y), released) +
-                    weightOf(shapeOf(corners.z), released)) / 9.0;
-    bool isVertex = k < VERTICES;
-    own.position = isVertex ? packedVertex(oldState, first, 0, corners.x) : position;
-    own.velocity = isVertex ? packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) : velocity;
-    own.weight = isVertex ? weightOf(shape, released) : weight;
-#else
-    own.position = packedVertex(oldState, first, 0, k);
-    own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, k);
-    own.weight = weightOf(shape, released);
-#endif
+    if (TRIANGLES) {
+        bool isVertex = k < VERTICES;
+        ivec3 corners = isVertex ? ivec3(k) : ivec3(shape.xyz);
+        vec3 position = (packedVertex(oldState, first, 0, corners.x) + packedVertex(oldState, first, 0, corners.y) +
+                         packedVertex(oldState, first, 0, corners.z)) / 3.0;
+        vec3 velocity = (packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) +
+                         packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
+                         packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
+        // an impulse on the middle is a third on each corner
+        float weight = (weightOf(shapeOf(corners.x), released) + weightOf(shapeOf(corners.y), released) +
+                        weightOf(shapeOf(corners.z), released)) / 9.0;
+        own.position = isVertex ? packedVertex(oldState, first, 0, corners.x) : position;
+        own.velocity = isVertex ? packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) : velocity;
+        own.weight = isVertex ? weightOf(shape, released) : weight;
+    } else {
+        own.position = packedVertex(oldState, first, 0, k);
+        own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, k);
+        own.weight = weightOf(shape, released);
+    }
     float scale = 1.0;
 #ifdef CONSTANTS
     scale = valueOf(constants, molecule).x;
@@ -56,9 +57,7 @@ StateSphere sphereOfState(int molecule, int k)
     own.radius = givenRadius * scale;
 #ifdef LIFE
     vec2 life = packedLife(oldState, first);
-#ifdef CONTACT_GROWTH
-    own.radius *= mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min(life.x / max(life.y, 1e-9), 1.0));
-#endif
+    if (CONTACT_GROWTH != vec2(1.0)) own.radius *= mix(CONTACT_GROWTH.x, CONTACT_GROWTH.y, min(life.x / max(life.y, 1e-9), 1.0));
     own.lives = life.y > 0.0;
     own.fresh = life.x <= contactStep * 1.0001;
     if (!own.lives) own.radius = 0.0;
@@ -66,12 +65,10 @@ StateSphere sphereOfState(int molecule, int k)
     return own;
 }
 
-#ifdef RIGID
-#include "contact/response/body.glsl"
-
-// `place`: of the sphere, m from the molecule's anchor.
+// Zeros without RIGID. `place`: of the sphere, m from the molecule's anchor.
 BodySphere bodySphereOf(int molecule, vec3 place)
 {
+    if (!RIGID) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
     int first = firstElement(molecule, STATE_ELEMENTS);
     float mass = 0.0;
     vec3 centre = vec3(0.0);
@@ -93,7 +90,6 @@ BodySphere bodySphereOf(int molecule, vec3 place)
     float trace = perInertia[0][0] + perInertia[1][1] + perInertia[2][2];
     return BodySphere(arm, 1.0 / mass, perInertia, dot(arm, arm) * trace - dot(arm, perInertia * arm));
 }
-#endif
 
 CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 {
@@ -101,42 +97,3 @@ CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
     if (!own.lives) place.cell = cellApart(sphere);
     return place;
 }
-
-#ifdef WALLS
-#include "generated/colliders.glsl"
-#include "contact/grid/colliders.glsl"
-
-// The step has answered what colliders do to vertices, but to those of a rigid body, and not to triangles.
-bool colliderIsAnswered(int k)
-{
-#ifdef RIGID
-    return false;
-#else
-    return k < VERTICES;
-#endif
-}
-
-// Returns the colliders that sphere k of its molecule may press on within the step, the nearest first.
-NearCollider[MOST_COLLIDERS] nearColliders(StateSphere own, int k)
-{
-    contactRadius = own.radius;
-    NearCollider near[MOST_COLLIDERS];
-    for (int w = 0; w < MOST_COLLIDERS; ++w) near[w] = NearCollider(vec3(0.0), 1e30, vec3(0.0), 0.0);
-    float least = colliderIsAnswered(k) ? 0.0 : -1e30;  // m, of a gap
-    float reach = 0.25 * own.radius + length(own.velocity) * contactStep;
-#ifdef JOINT_CONTACT
-    ivec3 skip = ivec3(-1);
-    waySquared = 0.0;  // distances as they are
-    for (int w = 0; w < MOST_COLLIDERS; ++w) {
-        Touch t = survey(own.anchor, own.position, own.velocity, contactStep, skip).swept;
-        if (t.which < 0 || t.distance >= reach) break;
-        near[w] = NearCollider(t.normal, max(t.distance, least), t.velocity, materialOf(t).y);
-        skip = ivec3(skip.y, t.which, -1);
-    }
-#else
-    vec4 surface = surfaceAt(own.anchor, own.position);
-    if (surface.w < reach) near[0] = NearCollider(surface.xyz, max(surface.w, least), vec3(0.0), colliderParameters[0].y);
-#endif
-    return near;
-}
-#endif

@@ -4,6 +4,7 @@
 #include "state/textures.glsl"
 #include "physics/cells.glsl"
 #include "contact/flags.glsl"
+#include "contact/response/body.glsl"
 
 uniform float cell;
 uniform float givenRadius;
@@ -14,6 +15,7 @@ struct StateSphere {
     vec3 velocity;  // m/s
     float weight;   // 1/kg
     float radius;   // m
+    bool lives;     // always, here
     bool fresh;     // never, here
 };
 
@@ -23,7 +25,13 @@ StateSphere sphereOfState(int molecule, int vertex)
     vec4 own = inertia(vertex);
     return StateSphere(texelFetch(records, recordTexel(molecule), 0).xyz, texelFetch(positions, texel, 0).xyz,
                        texelFetch(velocities, texel, 0).xyz, isHeld(own, molecule) ? 0.0 : own.x,
-                       givenRadius * texelFetch(constants, recordTexel(molecule), 0).y, false);
+                       givenRadius * texelFetch(constants, recordTexel(molecule), 0).y, true, false);
+}
+
+// None is rigid here.
+BodySphere bodySphereOf(int molecule, vec3 place)
+{
+    return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
 }
 
 CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)

@@ -1,11 +1,14 @@
 // Adds what contact does to the vertices of one group in the state, and leaves what acts on them over the next step.
 //   MANY: a lane a vertex, on which the contacts of several spheres act (contact/response/changes.glsl)
 //   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
+const bool applies = true;
 #include "contact/response/changes.glsl"
-#ifdef REMEMBERS
+#include "contact/rest/resting.glsl"
+#include "contact/search/responding.glsl"
+#pragma reads sorted
 #pragma writes loads
-#endif
 
+uniform int partSpheres;
 uniform float stepTime;     // s, of a contact step
 uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
@@ -23,10 +26,8 @@ void add(int molecule, int vertex, Total change)
         v[c] = state[place] + change.impulse[c];
         state[place] = v[c];
     }
-#ifdef REMEMBERS
     int sphere = moleculeSphere(molecule) + vertex;
     putLoads(sphere, loadOf(sphere, change, stepTime));
-#endif
 #ifdef HISTORY
     // A slow vertex goes on as if it had moved so before; any other begins anew (fused/bdf2.glsl).
     bool slow = length(v) < restSpeed;
@@ -37,27 +38,17 @@ void add(int molecule, int vertex, Total change)
 #endif
 }
 
-#ifdef MANY
-#include "contact/rest/resting.glsl"
-
-void main()
+void applyToVertex(int lane)
 {
-    if (isBehindLast()) return;
-    int molecule = ownLane() / VERTICES;
-    int vertex = ownLane() - molecule * VERTICES;
+    int molecule = lane / VERTICES;
+    int vertex = lane - molecule * VERTICES;
     if (rests(slotOf(moleculeSphere(molecule)))) return;
     Total change = changeOf(molecule, vertex);
     if (change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0)) add(molecule, vertex, change);
 }
-#else
-#include "contact/search/responding.glsl"
-#pragma reads sorted
 
-uniform int partSpheres;
-
-void main()
+void applyToSlot(int slot)
 {
-    int slot = ownSlot(0);
     int lane = slot < 0 ? -1 : int(sortedAt(slot).y) - firstSphere;
     if (lane < 0 || lane >= partSpheres) return;
     int molecule = lane / SPHERES;
@@ -67,4 +58,12 @@ void main()
         weightOf(shapeOf(vertex), texelFetch(oldRecords, molecule).w < 0.0));
     add(molecule, vertex, change);
 }
-#endif
+
+void main()
+{
+    if (!MANY) {
+        applyToSlot(ownSlot(0));
+    } else if (!isBehindLast()) {
+        applyToVertex(ownLane());
+    }
+}

@@ -3,6 +3,8 @@
 // p / M + (I^-1 (r x p)) x s. Three texels of `bodies` a sphere: xyz its arm r, m, w 1 / M, 1/kg; xyz the diagonal of I^-1,
 // 1/(kg m^2), w the turning; xyz what lies beside it (yz, xz, xy).
 #include "physics/pair.glsl"
+#pragma reads bodies
+
 struct BodySphere {
     vec3 arm;
     float perMass;
@@ -41,9 +43,6 @@ vec4[3] packedBody(BodySphere body)
     return vec4[3](vec4(body.arm, body.perMass), vec4(t[0][0], t[1][1], t[2][2], body.turning), vec4(t[1][2], t[0][2], t[0][1], 0.0));
 }
 
-#ifdef BODIES
-#pragma reads bodies
-
 BodySphere bodySphereAt(int sphere)
 {
     vec4 arm = bodiesAt(sphere, 0);
@@ -57,4 +56,3 @@ void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
     motion.shift += more.shift;
     motion.turn += more.turn;
 }
-#endif

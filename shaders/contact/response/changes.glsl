@@ -1,15 +1,12 @@
 // Totals by slot become changes of the spheres of a molecule, of which each may move others, because they lie on triangles of the same
-// vertices or on a rigid body (RIGID).
+// vertices or on a rigid body (RIGID). Needs `applies`: whether what contact changes goes into the state, or on to the next iteration.
 #include "contact/grid/shape.glsl"
 #include "contact/flags.glsl"
-#pragma reads counts totals
-#ifdef APPLIES
-#pragma reads warmStart
-#else
-#pragma reads earlierTotals
+#include "contact/rest/states.glsl"
+#include "contact/response/body.glsl"
+#pragma reads counts totals earlierTotals warmStart cells effectiveCounts motions sphereMotions
 
-uniform float momentum;  // contact/response/solve.pass.glsl
-#endif
+uniform float momentum;  // of the iteration (contact/response/iteration.glsl)
 uniform VALUES oldRecords;
 
 int moleculeSphere(int molecule)
@@ -37,25 +34,10 @@ void add(inout Total a, Total b, float part)
     a.load += b.load * part;
 }
 
-#ifdef APPLIES
-#ifdef RIGID
-#include "contact/rest/states.glsl"
-#pragma reads cells effectiveCounts
-#ifdef TEXTURES
-#pragma reads motions
-
 vec3 velocityBefore(int sphere)
 {
-    return uintBitsToFloat(motionsAt(slotOf(sphere)).xyz);
+    return uintBitsToFloat(inTextures ? motionsAt(slotOf(sphere)).xyz : sphereMotionsAt(sphere).xyz);
 }
-#else
-#pragma reads sphereMotions
-
-vec3 velocityBefore(int sphere)
-{
-    return uintBitsToFloat(sphereMotionsAt(sphere).xyz);
-}
-#endif
 
 // Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
 // reaches none that is not known as near (contact/grid/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
@@ -65,38 +47,27 @@ bool holds(int sphere, vec3 changed, float stepTime)
     return uintBitsToFloat(effectiveCountsAt(slot)) > 0.0 &&
            length(velocityBefore(sphere) + changed) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
 }
-#endif
 
 // Returns the load on a sphere's vertex over the next step (contact/arrays.txt).
 vec4 loadOf(int sphere, Total change, float stepTime)
 {
-#ifdef RIGID
-    if (holds(sphere, change.impulse, stepTime)) return vec4(change.load / stepTime, HELD_BY_CONTACT);
-#endif
+    if (RIGID && holds(sphere, change.impulse, stepTime)) return vec4(change.load / stepTime, HELD_BY_CONTACT);
     return vec4(change.load / stepTime, 0.0);
 }
-#endif
 
 Total totalAt(int sphere)
 {
     int slot = slotOf(sphere);
     if (countsAt(slot) == 0u) return noTotal();
     Total total = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
-#if defined(APPLIES) && defined(TEXTURES)
-    total.load = warmStartAt(slot).xyz;
-#elif defined(APPLIES)
-    total.load = warmStartAt(sphere).xyz;
-#else
-    if (momentum != 0.0) {
+    if (applies) {
+        total.load = warmStartAt(inTextures ? slot : sphere).xyz;
+    } else if (momentum != 0.0) {
         total.impulse += (total.impulse - earlierTotalsAt(slot, 0).xyz) * momentum;
         total.shift += (total.shift - earlierTotalsAt(slot, 1).xyz) * momentum;
     }
-#endif
     return total;
 }
-
-#ifdef RIGID
-#include "contact/response/body.glsl"
 
 // How they change a body.
 struct BodyTotal {
@@ -124,20 +95,10 @@ BodyTotal totalOfBody(int molecule)
 Total changeIn(BodyTotal body, int molecule, int k)
 {
     BodySphere own = bodySphereAt(moleculeSphere(molecule) + k);
-#ifdef APPLIES
-    vec3 shift = wayAt(own, body.shift);
-#else
-    vec3 shift = motionAt(own, body.shift);
-#endif
+    vec3 shift = applies ? wayAt(own, body.shift) : motionAt(own, body.shift);
     return Total(motionAt(own, body.impulse), shift, motionAt(own, body.load));
 }
 
-// Returns how they change sphere k of a molecule.
-Total changeOf(int molecule, int k)
-{
-    return changeIn(totalOfBody(molecule), molecule, k);
-}
-#else
 // Returns how its own contacts and those of the triangles around it change a vertex.
 Total changeOfVertex(int vertex, int first, bool released)
 {
@@ -152,6 +113,7 @@ Total changeOfVertex(int vertex, int first, bool released)
 // Returns how they change sphere k of a molecule.
 Total changeOf(int molecule, int k)
 {
+    if (RIGID) return changeIn(totalOfBody(molecule), molecule, k);
     int first = moleculeSphere(molecule);
     bool released = valueOf(oldRecords, molecule).w < 0.0;
     vec4 shape = shapeOf(k);
@@ -160,4 +122,3 @@ Total changeOf(int molecule, int k)
     for (int c = 0; c < 3; ++c) add(change, changeOfVertex(int(shape[c]), first, released), 1.0 / 3.0);
     return change;
 }
-#endif

@@ -1,8 +1,10 @@
 // Where one sphere's contacts move others: the effective count (physics/pair.glsl) of the contacts that act on the same vertices as a
-// sphere's own, or on the same rigid body (RIGID). With buffers a lane has a sphere of one group, or with RIGID a molecule.
-#include "contact/grid/shape.glsl"
+// sphere's own, or on the same rigid body (RIGID). With buffers a lane has a sphere of one group, or with RIGID a molecule; in fragments a texel
+// has the slot of one.
+#include "contact/group_sphere.glsl"
 #include "contact/flags.glsl"
-#include "physics/pair.glsl"
+#include "contact/response/body.glsl"
+#include "contact/rest/resting.glsl"
 #pragma reads counts contactSums
 #pragma writes effectiveCounts
 
@@ -14,13 +16,10 @@ ContactSum contactsOf(int sphere)
     return ContactSum(first.xyz, contactSumsAt(slot, 1).xyz, first.w);
 }
 
-#ifdef RIGID
-#include "contact/response/body.glsl"
-
-// Returns it for all spheres of the molecule whose first is `moleculeSphere`, whatever k: all contacts of the molecule act on each. With X the
+// Returns it for all spheres of the molecule whose first is `moleculeSphere`: all contacts of the molecule act on each. With X the
 // matrix of a cross product with a sphere's arm and S the sum of its contacts, the matrix of its body is the sum over the spheres
 // of (S, S X^T; I^-1 M X S, I^-1 M X S X^T).
-float effectiveSum(int moleculeSphere, int k)
+float effectiveSumOfBody(int moleculeSphere)
 {
     mat3 a = mat3(0.0);
     mat3 b = a;
@@ -41,7 +40,7 @@ float effectiveSum(int moleculeSphere, int k)
     mat3 perInertia = body.perInertia / body.perMass;
     return effectiveCount(a, b, perInertia * transpose(b), perInertia * d);
 }
-#else
+
 float countOf(int vertex, int moleculeSphere)
 {
     vec4 shape = shapeOf(vertex);
@@ -53,45 +52,24 @@ float countOf(int vertex, int moleculeSphere)
 // Returns it for sphere k of the molecule whose first is `moleculeSphere`.
 float effectiveSum(int moleculeSphere, int k)
 {
+    if (RIGID) return effectiveSumOfBody(moleculeSphere);
     if (!isActedOn(countsAt(slotOf(moleculeSphere + k)))) return 0.0;
     vec4 shape = shapeOf(k);
     float most = countOf(k < VERTICES ? k : int(shape.x), moleculeSphere);
     if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));
     return most;
 }
-#endif
-
-#ifdef TEXTURES
-#include "contact/group_sphere.glsl"
 
 void main()
 {
-    int lane = ownSphereOfGroup();
-    int molecule = lane / SPHERES;
-    putEffectiveCounts(ownNumber(), floatBitsToUint(effectiveSum(firstSphere + molecule * SPHERES, lane - molecule * SPHERES)));
-}
-#else
-#include "contact/rest/resting.glsl"
-
-void main()
-{
-    int lane = ownLane();
-#ifdef RIGID
-    int first = firstNumber + lane * SPHERES;
-    int own = 0;
-#else
-    int own = lane % SPHERES;
-    int first = firstNumber + lane - own;
-#endif
+    int lane = ownLaneOfGroup();
+    int own = oneForMolecule ? 0 : lane % SPHERES;
+    int first = firstSphere + (oneForMolecule ? lane * SPHERES : lane - own);
     bool isLeft = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/search.glsl)
     while (isLeft) {
         uint sum = floatBitsToUint(effectiveSum(first, own));
-#ifdef RIGID
-        for (int k = 0; k < SPHERES; ++k) putEffectiveCounts(slotOf(first + k), sum);
-#else
-        putEffectiveCounts(slotOf(first + own), sum);
-#endif
+        int end = oneForMolecule ? SPHERES : own + 1;
+        for (int k = own; k < end; ++k) putEffectiveCounts(slotOf(first + k), sum);
         isLeft = false;
     }
 }
-#endif

@@ -1,13 +1,8 @@
-// One Jacobi iteration of the impulse of a contact, from the last two.
+// One Jacobi iteration of the impulse of a contact, from the last two. Needs `momentum`, Nesterov's: by how much of its last change an
+// iteration goes on first.
 #include "contact/response/pair.glsl"
 #include "contact/response/constraint.glsl"
-#pragma reads impulses earlierImpulses totals earlierTotals
-
-#ifdef FIRST
-const float momentum = 0.0;
-#else
-uniform float momentum;  // Nesterov's: by how much of its last change an iteration goes on first
-#endif
+#pragma reads impulses earlierImpulses totals earlierTotals velocities
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
 struct Moved {
@@ -23,23 +18,17 @@ vec3 ahead(vec3 latest, vec3 before)
     return momentum == 0.0 ? latest : latest + (latest - before) * momentum;  // nobody may have written what was before
 }
 
-#if defined(TEXTURES) && !defined(SPREAD)
+// Nobody writes the velocity of what rests, and fragments only those of spheres that move others.
 Moved movedAt(int slot)
 {
-    Sphere sphere = sphereAt(slot);
-    return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
-                 ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
-}
-#else
-#pragma reads velocities
-
-// Nobody writes the velocity of what rests.
-Moved movedAt(int slot)
-{
+    if (inTextures && !SPREADS) {
+        Sphere sphere = sphereAt(slot);
+        return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
+                     ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+    }
     if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
     return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
 }
-#endif
 
 void loadOwn(int slot)
 {

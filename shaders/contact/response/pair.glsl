@@ -11,6 +11,7 @@
 #include "contact/slots.glsl"
 #include "contact/rest/resting.glsl"
 #include "contact/response/impulse.glsl"
+#include "contact/response/body.glsl"
 #include "physics/pair.glsl"
 #pragma reads counts lists materials
 
@@ -60,16 +61,12 @@ bool holds(int slot, int other)
     return found;
 }
 
-#ifdef BODIES
-#include "contact/response/body.glsl"
-
 // Returns zeros for a sphere that gives way alone or not at all.
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if (sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    if (!BODIES || sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
     return bodySphereAt(sphereOf(slot));
 }
-#endif
 
 struct Pair {
     Sphere sphere;  // the other
@@ -77,41 +74,30 @@ struct Pair {
     PairContact contact;
     bool meets;     // both lists hold it, or the other sphere rests and has none; and one of the two is free
     vec2 material;  // x restitution, y friction
-#ifdef BODIES
     BodySphere body;
-#endif
 };
 
 Sphere own;
-#ifdef BODIES
 BodySphere ownBody;
-#endif
 
 void loadSphere(int slot)
 {
     own = sphereAt(slot);
-#ifdef BODIES
     ownBody = bodyOf(slot, own);
-#endif
 }
 
-#ifdef BODIES
+// Returns what an impulse of 1 N s on a sphere changes of its velocity, 1/kg: x along the unit vector n, y across it, or more.
 vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
 {
+    if (!BODIES) return vec2(sphere.weight);
     vec3 across = cross(body.arm, n);
     float turning = dot(across, body.perInertia * across);
     return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
 }
-#endif
 
-// Returns what an impulse of 1 N s on this sphere changes of its velocity, 1/kg: x along the unit vector n, y across it, or more.
 vec2 ownWeights(vec3 n)
 {
-#ifdef BODIES
     return weightsOf(own, ownBody, n);
-#else
-    return vec2(own.weight);
-#endif
 }
 
 #pragma reads effectiveCounts
@@ -126,11 +112,7 @@ float effectiveCountOf(int slot, Sphere sphere)
 // Returns what it changes of the two spheres' relative velocity. `effective`: the effective counts of the two.
 vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
-    vec2 other = vec2(pair.sphere.weight);
-#ifdef BODIES
-    other = weightsOf(pair.sphere, pair.body, n);
-#endif
-    return ownWeights(n) * effective.x + other * effective.y;
+    return ownWeights(n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 
 // `bounceFrom`: m/s; slower is no impact.
@@ -143,9 +125,7 @@ Pair pairOf(int slot, int other, float bounceFrom)
                                bounceFrom, slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
-#ifdef BODIES
     pair.body = bodyOf(other, pair.sphere);
-#endif
     return pair;
 }
 

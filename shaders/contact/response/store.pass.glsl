@@ -1,14 +1,9 @@
 // The last stage of contact/response/pair.glsl: how far the contacts move the spheres, and what they remember for the next step.
-#pragma updates totals
-#ifdef WALLS
-#pragma updates colliderImpulses
-#endif
-#include "contact/response/pair.glsl"
+#pragma updates totals colliderImpulses
+#include "contact/response/colliders.glsl"
 #pragma reads impulses anchors
-#pragma writes warmStart partners keptImpulses keptAnchors memoryCounts
-#ifdef TEXTURES
-#pragma writes nextTotals
-#endif
+#pragma writes warmStart partners keptImpulses keptAnchors memoryCounts oldNormals
+#pragma writes nextTotals when textures
 
 // Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
 // time since, what sticks back towards where it began to. `kept`: the contact's impulse as the next step begins with it.
@@ -27,16 +22,11 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
     return known.sticks ? -slip * back : vec3(0.0);
 }
 
-#ifdef WALLS
-#include "contact/response/colliders.glsl"
-#pragma writes oldNormals
-
 // Returns which part of what colliders push the next step begins with. Both sums are of the impulses' lengths, N s.
 float rememberedOfColliders(float start, float pushed)
 {
     return own.weight > 0.0 ? min(1.0, mostRemembered(start, pushed, own.weight) / max(pushed, 1e-30)) : 0.0;
 }
-#endif
 
 void main()
 {
@@ -60,24 +50,22 @@ void main()
         putKeptImpulses(sphere, e, firstPart(kept));
         putKeptAnchors(sphere, e, secondPart(kept));
     }
-#ifdef WALLS
-    int memory = memoryRow(slot);
-    float pushed = 0.0;
-    for (int k = 0; k < MOST_COLLIDERS; ++k) pushed += length(colliderImpulsesAt(memory, k).xyz);
-    part = rememberedOfColliders(total.w, pushed);
-    for (int k = 0; k < MOST_COLLIDERS; ++k) {
-        vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
-        keeps += push.xyz;
-        isHeld = isHeld || push != vec4(0.0);
-        putColliderImpulses(memory, k, push);
-        putOldNormals(memory, k, vec4(colliderOf(slot, k).normal, 0.0));
+    if (COLLIDERS) {
+        int memory = memoryRow(slot);
+        float pushed = 0.0;
+        for (int k = 0; k < MOST_COLLIDERS; ++k) pushed += length(colliderImpulsesAt(memory, k).xyz);
+        part = rememberedOfColliders(total.w, pushed);
+        for (int k = 0; k < MOST_COLLIDERS; ++k) {
+            vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
+            keeps += push.xyz;
+            isHeld = isHeld || push != vec4(0.0);
+            putColliderImpulses(memory, k, push);
+            putOldNormals(memory, k, vec4(colliderOf(slot, k).normal, 0.0));
+        }
     }
-#endif
     putTotals(slot, 1, vec4(shift, 0.0));
-#ifdef TEXTURES
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-#endif
     putMemoryCounts(sphere, uint(listed) | (isHeld ? HELD : 0u));
     putWarmStart(sphere, vec4(keeps, part));
 }

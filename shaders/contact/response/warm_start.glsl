@@ -1,6 +1,7 @@
 // The impulse with which a contact begins, from what it remembers of the last step.
 #include "contact/response/pair.glsl"
 #include "contact/response/memory.glsl"
+#pragma reads oldLists oldImpulses oldAnchors oldWarmStart partners keptImpulses keptAnchors
 
 int memory;  // of the own sphere
 bool remembers;
@@ -14,31 +15,16 @@ void loadOld(int slot)
     oldListed = remembers ? listedIn(memoryCountAt(memory)) : 0;
 }
 
-#ifdef TEXTURES
-#pragma reads oldLists oldImpulses oldAnchors oldWarmStart
-
 int partnerAt(int e)
 {
-    return int(oldListsAt(memory, e));
+    return int(inTextures ? oldListsAt(memory, e) : partnersAt(memory, e));
 }
 
 ContactImpulse oldImpulse(int e)
 {
-    return impulseFrom(oldImpulsesAt(memory, e), oldAnchorsAt(memory, e));
-}
-#else
-#pragma reads partners keptImpulses keptAnchors
-
-int partnerAt(int e)
-{
-    return int(partnersAt(memory, e));
-}
-
-ContactImpulse oldImpulse(int e)
-{
+    if (inTextures) return impulseFrom(oldImpulsesAt(memory, e), oldAnchorsAt(memory, e));
     return impulseFrom(keptImpulsesAt(memory, e), keptAnchorsAt(memory, e));
 }
-#endif
 
 // Returns from what the iterations set out to push apart what the last step pushed by `before`, kg m: from most of it while it still
 // overlaps, or the pressure of a pile would travel afresh in each step, one contact an iteration. From 0.9 of it a pile sways.

@@ -6,10 +6,7 @@
 #include "contact/response/pair.glsl"
 #include "contact/rest/mark_groups.glsl"
 #include "contact/rest/partners.glsl"
-#pragma reads markedSlots warmStart
-#ifdef WALLS
-#pragma reads colliderImpulses
-#endif
+#pragma reads markedSlots warmStart colliderImpulses
 
 uniform float wakeSpeed;  // m/s
 
@@ -49,9 +46,7 @@ Pushes pushesOn(int sphere)
 {
     Pushes all = Pushes(vec3(0.0), 0.0);
     for (int e = 0; e < rememberedBy(sphere); ++e) add(all, keptImpulsesAt(sphere, e).xyz);
-#ifdef WALLS
     for (int k = 0; k < MOST_COLLIDERS; ++k) add(all, colliderImpulsesAt(sphere, k).xyz);
-#endif
     return all;
 }
 

@@ -7,9 +7,8 @@
 #include "contact/flags.glsl"
 #include "contact/rest/states.glsl"
 #pragma reads cells marks sphereMotions
-#ifdef RELEASE
+
 uniform VALUES oldRecords;
-#endif
 uniform float stepTime;      // s
 uniform float restDistance;  // m
 uniform float restTime;      // s
@@ -85,9 +84,7 @@ void rest(int molecule, int sphere, int first)
     if (wakes || isDead || hasFlag(sphereMotionsAt(sphere).w)) time = 0.0;
     for (int v = 0; v < VERTICES; ++v)
         if (!(distance(stateVector(first, v), restPosesAt(sphere + v).xyz) <= restDistance)) time = 0.0;
-#ifdef RELEASE
-    if (valueOf(oldRecords, molecule).w >= 0.0) time = 0.0;  // what hangs may tear off
-#endif
+    if (RELEASE && valueOf(oldRecords, molecule).w >= 0.0) time = 0.0;  // what hangs may tear off
     bool comesToRest = time >= restTime;
     for (int v = 0; v < VERTICES; ++v) {
         if (time == 0.0) putRestPoses(sphere + v, vec4(stateVector(first, v), 0.0));

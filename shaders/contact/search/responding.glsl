@@ -2,34 +2,19 @@
 // has one; in fragments each texel looks at its own slot.
 #include "state/lanes.glsl"
 #include "contact/flags.glsl"
-#ifdef TEXTURES
-#pragma reads counts
+#pragma reads counts responding
 
-// The slot of this texel. Others than those that respond are left as they are.
+// The slot of this lane, or -1. Texels of slots that do not respond are left as they are.
 int ownSlot(int count)
 {
-    int slot = ownNumber();
-    if (slot >= count || countsAt(slot) == 0u) discard;
-    return slot;
+    int number = ownNumber();
+    if (!inTextures) return number < int(respondingAt(0)) ? int(respondingAt(1 + number)) : -1;
+    if (number >= count || countsAt(number) == 0u) discardTexel();
+    return number;
 }
 
+// Where the response keeps what it knows of the contacts of this lane's slot: with buffers close together whether many respond or few.
 int ownRow(int slot)
 {
-    return slot;
+    return inTextures ? slot : ownNumber();
 }
-#else
-#pragma reads responding
-
-// The slot of this lane, or -1.
-int ownSlot(int count)
-{
-    int lane = int(gl_GlobalInvocationID.x);
-    return lane < int(respondingAt(0)) ? int(respondingAt(1 + lane)) : -1;
-}
-
-// Where the response keeps what it knows of the contacts of this lane's slot: close together whether many respond or few.
-int ownRow(int slot)
-{
-    return int(gl_GlobalInvocationID.x);
-}
-#endif

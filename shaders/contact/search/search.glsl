@@ -10,11 +10,7 @@ uniform float reach;  // m, no more than half a cell: what is further away touch
 
 int startOf(int key)
 {
-#ifdef TEXTURES
-    return key > keyMask ? count : int(startsAt(key));
-#else
-    return int(startsAt(key));
-#endif
+    return inTextures && key > keyMask ? count : int(startsAt(key));
 }
 
 // Returns cell c of the eight to search: bit a of c selects the one further along axis a.
@@ -23,10 +19,7 @@ ivec3 cellBeside(ivec3 side, int c)
     return ownCell + side * ivec3(c & 1, (c >> 1) & 1, c >> 2);
 }
 
-// Candidates that are fetched at once: a GPU waits as long for some as for one (set by C++).
-#ifndef AHEAD
-#define AHEAD 1
-#endif
+// AHEAD candidates are fetched at once (set by C++): a GPU waits as long for some as for one.
 
 // Candidate i of cell c, with ends[c - 1] <= i < ends[c], is in slot i + shifts[c].
 int shifts[8];

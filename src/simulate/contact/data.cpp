@@ -56,36 +56,10 @@ size_t ContactData::most(const gpu::ContextInfo& info, const ContactPlan& contac
                      size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info), mostOfTable(info)});
 }
 
-ContactFacts::ContactFacts(const Plan& plan, const ContactState& state, bool counts)
-    : textures(state.form() == ContactState::Form::textures),
-      fused(state.fused()),
-      counted(!textures && counts),
-      remembers(plan.contact.remembers()),
-      rests(!textures && plan.contact.settings.rest.has_value()),
-      staggers(plan.contact.settings.search == ContactSearch::staggered) {
-    for (const ContactGroup& group : plan.contact.groups) {
-        self |= group.self;
-        if (!remembers) continue;
-        rigid |= plan.groups[group.group].rigid;
-        spreads |= group.triangles || plan.groups[group.group].rigid;
-        colliders |= fused && plan.groups[group.group].needs.collide;
-    }
-}
-
-std::set<std::string> ContactFacts::names() const {
-    std::set<std::string> out;
-    const std::pair<bool, const char*> facts[] = {
-        {fused, "fused"},     {counted, "counted"},     {remembers, "remembers"},
-        {rests, "rests"},     {staggers, "staggers"},   {self, "self"},
-        {spreads, "spreads"}, {colliders, "colliders"}, {rigid, "rigid"}};
-    for (const auto& [holds, name] : facts)
-        if (holds) out.insert(name);
-    return out;
-}
-
 ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const Tables& usedTables,
                          ContactState& usedState, std::optional<bool> asOnGpu)
-    : ContactFacts(usedPlan, usedState, asOnGpu.value_or(!usedContext.info().software)),
+    : ContactFacts(contactFacts(usedPlan, usedState.form() == ContactState::Form::textures, usedState.fused(),
+                                asOnGpu.value_or(!usedContext.info().software))),
       context(&usedContext),
       plan(&usedPlan),
       contact(textures ? &plan->contact : checkedInBuffers(context->info(), plan->contact)),
@@ -95,8 +69,8 @@ ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const 
       listLength(textures ? contactsInFragments
                           : int(std::min(size_t(contact->listLength),
                                          mostEntries(context->info(), *contact) / padded))),
-      table(context->shaders() + "/contact/arrays.txt", state->form()),
-      arrays(*context, table, sizes(), names(), "contact") {
+      table(context->shaders() + "/contact/arrays.txt", state->form(), names()),
+      arrays(*context, table, sizes(), "contact") {
     giveTables();
 }
 
@@ -135,55 +109,45 @@ void ContactData::giveTables() {
 
 gpu::ProgramOptions ContactData::options(const std::string& file, const std::string& label) const {
     gpu::ProgramOptions out = arrays.passOptions(file, concat("contact ", label));
-    out.defines.push_back(concat("MOST_COLLIDERS ", ContactPlan::mostColliders));
+    out.defines.insert(out.defines.end(),
+                       {concat("MOST_COLLIDERS ", ContactPlan::mostColliders), concat("LIST ", listLength)});
     const auto define = [&](bool need, const std::string& name) {
         if (need) out.defines.push_back(name);
     };
-    define(textures, concat("LIST ", listLength));
-    define(remembers, "REMEMBERS");
-    define(rests, "RESTING");
-    define(staggers, "STAGGERED");
-    define(counted, "COUNTED");
     define(counted, concat("CELL_TILE ", cellTile));
     define(counted, concat("LINE_WORDS ", lineWords));
+    for (const std::string& fact : constants())
+        out.defines.push_back(fact);
+    out.generated = files();
     return out;
 }
 
 Program ContactData::stage(const std::string& file, const std::vector<std::string>& defines) const {
     gpu::ProgramOptions made = options(file, file.substr(file.rfind('/') + 1));
-    const auto define = [&](bool need, const std::string& name) {
-        if (need) made.defines.push_back(name);
-    };
-    define(!textures, concat("LIST ", listLength));
-    define(true, concat("NEIGHBORS ", contact->settings.neighbors));
-    define(true, concat("NEAR ", ContactPlan::near));
-    define(contact->settings.fastest.has_value(), "SWEPT");
-    define(self, "SELF");
-    define(spreads, "SPREAD");
-    define(rigid, "BODIES");
-    define(colliders, "WALLS");
+    made.defines.push_back(concat("NEIGHBORS ", contact->settings.neighbors));
+    made.defines.push_back(concat("NEAR ", ContactPlan::near));
     made.defines.insert(made.defines.end(), defines.begin(), defines.end());
     return Program(*context, made);
 }
 
-Program ContactData::groupStage(const ContactGroup& group, const std::string& file,
-                                const std::vector<std::string>& defines) const {
+Program ContactData::groupStage(const ContactGroup& group, const std::string& file) const {
     const GroupPlan& groupPlan = planOf(group);
     gpu::ProgramOptions made =
         options(file, concat(file.substr(file.rfind('/') + 1), " of ", groupPlan.name));
-    for (const std::vector<std::string>& more : {state->defines(group.group), group.defines(), defines})
+    const ContactGroupFacts facts = {.rigid = isRigid(group),
+                                     .triangles = group.triangles,
+                                     .pins = groupPlan.needs.pins,
+                                     .release = groupPlan.needs.release,
+                                     .collides = !textures && collides(group),
+                                     .severalColliders = plan->jointContact,
+                                     .vertexTextures = textures && !fused};
+    for (const std::vector<std::string>& more :
+         {state->defines(group.group), group.defines(), facts.constants()})
         made.defines.insert(made.defines.end(), more.begin(), more.end());
-    const auto define = [&](bool need, const std::string& name) {
-        if (need) made.defines.push_back(name);
-    };
-    define(true, concat("VERTICES ", groupPlan.vertexCount));
-    define(true, concat("SPHERES ", group.spheresOf));
-    define(group.triangles, "TRIANGLES");
-    define(groupPlan.needs.pins, "PINS");
-    define(groupPlan.needs.release, "RELEASE");
-    define(rigid, "BODIES");
-    define(isRigid(group), "RIGID");
-    made.generated = {{"generated/colliders.glsl", plan->colliders.source}};
+    made.defines.push_back(concat("VERTICES ", groupPlan.vertexCount));
+    made.defines.push_back(concat("SPHERES ", group.spheresOf));
+    made.generated.merge(facts.files());
+    made.generated["generated/colliders.glsl"] = plan->colliders.source;
     return Program(*context, made);
 }
 

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "compile/path.h"
 #include "gpu/arrays.h"
 #include "gpu/program.h"
+#include "simulate/contact/facts.h"
 #include "simulate/contact/memory.h"
 #include "simulate/contact/state.h"
 #include "simulate/step.h"
@@ -22,20 +22,6 @@ struct ContactStep {
     double step;       // s
     double restSpeed;  // m/s
     double substep;    // s
-};
-
-// The facts of a scene's contact, on a path.
-struct ContactFacts {
-    bool textures, fused;
-    bool counted;  // the cells are filled by counting instead of sorting
-    bool remembers, rests, staggers;
-    bool self = false;
-    bool spreads = false;  // the contacts of one sphere move others
-    bool colliders = false, rigid = false;
-
-    // `counts`: whether counting suits the device.
-    ContactFacts(const Plan& plan, const ContactState& state, bool counts);
-    std::set<std::string> names() const;  // of those that hold
 };
 
 class ContactData : public ContactFacts {
@@ -58,8 +44,7 @@ class ContactData : public ContactFacts {
 
     // A stage of all spheres, FILE.pass.glsl below the shaders' root, and of one group.
     gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {}) const;
-    gpu::Program groupStage(const ContactGroup& group, const std::string& file,
-                            const std::vector<std::string>& defines = {}) const;
+    gpu::Program groupStage(const ContactGroup& group, const std::string& file) const;
     const gpu::Program& with(const gpu::Program& program) const { return arrays.with(program); }
     // With what all stages of the response are given.
     const gpu::Program& withResponse(const gpu::Program& program, const ContactStep& times) const;
@@ -71,6 +56,10 @@ class ContactData : public ContactFacts {
     void runAll(const gpu::Program& program) { arrays.run(program, 0, contact->spheres); }
 
     const GroupPlan& planOf(const ContactGroup& group) const { return plan->groups[group.group]; }
+    // Whether its spheres press on colliders within the response.
+    bool collides(const ContactGroup& group) const { return colliders && planOf(group).needs.collide; }
+    // Whether several spheres act on a vertex.
+    bool manyAct(const ContactGroup& group) const { return group.triangles || isRigid(group); }
     bool isRigid(const ContactGroup& group) const { return rigid && planOf(group).rigid; }
     int keyMask() const { return (1 << contact->tableBits) - 1; }
     // Spheres of a part: the first, and how many.

@@ -2,20 +2,25 @@
 
 #include <algorithm>
 
+#include "gpu/shader_source.h"
+
 namespace shoal {
 
 using gpu::Program;
 
 ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
     const bool isExact = data.contact->settings.search == ContactSearch::exact;
-    std::vector<std::string> defines;
-    if (isExact && data.counted) defines.emplace_back("AHEAD 4");
-    find_ = data.stage(isExact ? "contact/search/find" : "contact/search/neighbors", defines);
-    if (data.staggers && !data.textures)
-        findStaggered_ = data.stage("contact/search/neighbors", {"SECOND_GRID"});
+    const std::vector<std::string> ahead = {concat("AHEAD ", data.counted ? 4 : 1)};
+    if (!isExact) {
+        const bool inBoth = data.staggers && data.textures;
+        find_ = data.stage(inBoth ? "contact/search/neighbors_in_both" : "contact/search/neighbors",
+                           {gpu::constant("SECOND_GRID", false)});
+        if (data.staggers && !data.textures)
+            findStaggered_ = data.stage("contact/search/neighbors", {gpu::constant("SECOND_GRID", true)});
+    }
+    if (isExact) find_ = data.stage(data.rests ? "contact/search/find_awake" : "contact/search/find", ahead);
     if (!data.rests) return;
-    defines.emplace_back("AMONG_RESTING");
-    findResting_ = data.stage("contact/search/find", defines);
+    findResting_ = data.stage("contact/search/find_marked", ahead);
     awake_ = data.stage("contact/rest/awake");
     wake_ = data.stage("contact/rest/wake");
 }
@@ -26,7 +31,7 @@ void ContactFinder::find(const Program& program, const ContactStep& times) {
     program.set("keyMask", data_->keyMask());
     if (data_->contact->settings.search == ContactSearch::exact)
         program.set("reach", float(data_->contact->reach));
-    if (data_->contact->settings.fastest || data_->rests) ContactData::setTimes(program, times);
+    ContactData::setTimes(program, times);
     if (data_->textures) return data_->runAll(program);
     program.set("listStride", int(data_->padded));
     program.set("last", int(!findStaggered_ || &program == &findStaggered_));

@@ -19,15 +19,13 @@ ContactGrid::ContactGrid(ContactData& data) : data_(&data) {
     } else {
         radix_.emplace(*data.context, data.padded);
     }
-    order_ = data.stage("contact/grid/order");
+    const char* ordered = data.counted ? "contact/grid/order_counted" : "contact/grid/order_sorted";
+    order_ = data.stage(data.textures ? "contact/grid/order" : ordered);
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
-        const bool collides = data.colliders && data.planOf(group).needs.collide;
-        if (collides && data.textures)
-            made.colliders = data.groupStage(group, "contact/grid/colliders", {"WALLS"});
-        std::vector<std::string> defines;
-        if (collides && !data.textures) defines.emplace_back("WALLS");
-        made.spheres = data.groupStage(group, "contact/grid/spheres", defines);
+        if (data.collides(group) && data.textures)
+            made.colliders = data.groupStage(group, "contact/grid/colliders");
+        made.spheres = data.groupStage(group, "contact/grid/spheres");
     }
 }
 
@@ -45,8 +43,7 @@ void ContactGrid::makeSpheres(const Frame& frame, bool wakes, bool isStaggered) 
         setStep(program, group, frame);
         if (!data_->textures) {
             program.set("keys", data_->keyMask() + 1);
-            if (data_->colliders && data_->planOf(group).needs.collide)
-                data_->setColliders(program, group, frame);
+            if (data_->collides(group)) data_->setColliders(program, group, frame);
             if (data_->rests) program.set("wakes", int(wakes));
             if (data_->staggers) {
                 program.set("cellShift", glm::vec3(isStaggered ? float(data_->contact->cell / 2) : 0.0f));

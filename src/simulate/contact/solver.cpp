@@ -12,22 +12,19 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
         solve_ = data.stage("contact/response/solve");
         store_ = data.stage("contact/response/store");
         if (data.textures) {
-            prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"});
+            prepareEntries_ = data.stage("contact/response/prepare_entries");
             constrain_ = data.stage("contact/response/constrain");
-            solveEntries_ = data.stage("contact/response/solve", {"ENTRIES"});
+            solveEntries_ = data.stage("contact/response/solve_entries");
         } else {
-            solveFirst_ = data.stage("contact/response/solve", {"FIRST"});
+            solveFirst_ = data.stage("contact/response/solve_first");
         }
     } else {
         nearest_ = data.stage("contact/response/nearest");
     }
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
-        const bool many = group.triangles || data.isRigid(group);
-        std::vector<std::string> applies = {"APPLIES"};
-        if (many) applies.emplace_back("MANY");
-        made.apply = data.groupStage(
-            group, data.textures ? "contact/response/gains" : "contact/response/apply", applies);
+        const char* gains = data.manyAct(group) ? "contact/response/gains_of_many" : "contact/response/gains";
+        made.apply = data.groupStage(group, data.textures ? gains : "contact/response/apply");
         if (!data.spreads) continue;
         made.effectiveSum = data.groupStage(group, "contact/response/effective_sum");
         made.velocities = data.groupStage(group, "contact/response/velocities");
@@ -93,7 +90,7 @@ void ContactSolver::countEffective() {
     forBodies([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].effectiveSum, group, part);
-        if (data_->textures) program.set("firstSphere", spheres.first);
+        program.set("firstSphere", spheres.first);
         runBodies(program, group, spheres);
     });
 }
@@ -151,7 +148,7 @@ void ContactSolver::apply(const ContactStep& times) {
         program.set("restSpeed", float(times.restSpeed));
         program.set("substepTime", float(times.substep));
         program.set("firstSphere", spheres.first);
-        if (group.triangles || data_->isRigid(group))  // spheres act on a vertex
+        if (data_->manyAct(group))
             return data_->arrays.run(program, spheres.first,
                                      molecules.count * data_->planOf(group).vertexCount);
         program.set("partSpheres", spheres.count);
@@ -164,7 +161,7 @@ void ContactSolver::applyGains(const ContactStep& times) {
     data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
         const ContactGroup& group = data_->contact->groups[g];
         const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
-        const bool many = group.triangles || data_->isRigid(group);  // spheres act on a vertex
+        const bool many = data_->manyAct(group);
         const Program& program =
             many ? data_->withPart(groups_[g].apply, group, part) : data_->with(groups_[g].apply);
         program.set("stepTime", float(times.step));

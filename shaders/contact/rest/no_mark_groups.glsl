@@ -1,0 +1,4 @@
+// Nothing is marked where no molecule may rest (contact/rest/mark_groups.glsl).
+void noneMarked()
+{
+}
