@@ -18,6 +18,7 @@
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of one of them NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
+const float noHistory = NO_HISTORY;
 bool restart;
 float eta;  // s, of this step
 float kickDrift;  // s, for contact (physics/collide.glsl)
@@ -25,6 +26,14 @@ vec3 unsprung[VERTICES];  // m/s, the velocity without springs
 
 // m/s^2, of the springs at the substep's end, for contact.
 #define SPRUNG(i) ((v[i] - unsprung[i]) / eta)
+#define OWED(i) vec3(0.0)
+const bool owesKick = false;
+#define DRIFT(acceleration, beyond) Drift(driftOfStep.x, kickDrift, driftOfStep.z, acceleration, beyond)
+
+// It holds nothing on colliders within its stages, as Runge-Kutta methods do.
+void findFooting(float time)
+{
+}
 
 const float third = 1.0 / 3.0;
 
@@ -87,16 +96,12 @@ void predict(int step)
     eta = restart ? substep : stageEta;
     kickDrift = restart ? 0.5 * substep : stageEta;
     vec2 stepPhi = restart ? phi : stagePhi;
-#ifdef DIRECTIONAL_DRAG
-    acrossLess = 1.0 - stepPhi.x / stepPhi.y;
-#endif
+    acrossLess = isDirectional ? 1.0 - stepPhi.x / stepPhi.y : 0.0;
     for (int i = 0; i < VERTICES; ++i) {
         vec3 ahead = restart ? v[i] * substep : dx[i] * third + (v[i] + dv[i] * third) * stageEta;
         probe[i] = x[i] + (isHeld(pinned[i]) ? vec3(0.0) : ahead);
     }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
+    if (isDirectional) surfaceNormals();
     sampleSubstep(float(step + 1) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);

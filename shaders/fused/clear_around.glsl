@@ -1,12 +1,12 @@
 // Where in a frame a molecule cannot touch anything.
 
-#ifdef BOUNDED
 // A ball that no surface reaches into, around where the first vertex is when the frame begins.
 vec3 clearAround;   // m
 float clearRadius;  // m, negative inside
 
 void beginContact()
 {
+    if (!areBounded) return;
     clearAround = x[0];
     clearRadius = 0.99 * clearance(anchor, clearAround, 0.0) - 1e-4;  // less than distances are rounded by
 }
@@ -14,6 +14,7 @@ void beginContact()
 // Whether the ways of this substep may have left that ball.
 bool mayTouch()
 {
+    if (!areBounded) return true;
     float away = 0.0;
     float fastest = 0.0;
     for (int i = 0; i < VERTICES; ++i) {
@@ -23,13 +24,3 @@ bool mayTouch()
     }
     return !(sqrt(away) + sqrt(fastest) * substep < clearRadius);
 }
-#else
-void beginContact()
-{
-}
-
-bool mayTouch()
-{
-    return true;
-}
-#endif

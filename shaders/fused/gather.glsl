@@ -19,7 +19,6 @@ void loadInertia()
     }
 }
 
-#ifdef SPRINGS
 // Adds up all springs on all vertices, from x and w; time for the muscles.
 void springForces(float time)
 {
@@ -36,7 +35,6 @@ void springForces(float time)
         force[i] = springForceOn(vertexOf(i), time);
     }
 }
-#endif
 
 // The area vectors of the triangles from `first` to `end`, each from its first corner, to where velocities were.
 void shareAreas(int first, int end)
@@ -107,13 +105,11 @@ bool anyLane(bool value)
 float pullOnPins()
 {
     float pull = 0.0;
-#ifdef SPRINGS
+    if (!SPRINGS) return pull;
     for (int i = 0; i < VERTICES; ++i) {
         if (pinned[i]) pull = max(pull, length(force[i]));
     }
-    pull = largest(pull);
-#endif
-    return pull;
+    return largest(pull);
 }
 
 // The position of vertex 0, m.

@@ -1,14 +1,6 @@
 // A workgroup for several molecules, its lanes spread over their vertices (fused/gather.glsl), for molecules that do not fit
 // one lane's registers. For fused/frame.glsl.
-#include "fused/store.glsl"
-#ifdef NORMALS
-layout(std430) writeonly buffer NewNormals { ELEMENT newNormals[]; };
-#endif
-
-int ownMolecule()
-{
-    return int(gl_GlobalInvocationID.x);
-}
+#include "fused/buffers.glsl"
 
 // One of the molecule's lanes does what is to be done once.
 bool isFirstLane()
@@ -34,11 +26,10 @@ void loadState(int molecule)
         v[i] = sharedVector(VELOCITIES, vertexOf(i));
     }
     loadInertia();
-#ifdef LIFE
+    if (!isMortal) return;
     vec2 life = packedLife(oldState, first);
     age = life.x;
     span = life.y;
-#endif
 }
 
 // The molecule is stored as it was.
@@ -78,42 +69,21 @@ void storeState(int molecule)
     for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
         vec4 place = sharedElement(PLACES, e);
         vec4 velocity = sharedElement(VELOCITIES, e);
-#ifdef LIFE
-        if (STATE_ELEMENTS % 2 == 0 && e == POSITION_ELEMENTS - 1) {
+        if (isMortal && STATE_ELEMENTS % 2 == 0 && e == POSITION_ELEMENTS - 1) {
             place.w = age;
             velocity.w = span;
         }
-#endif
         storeElement(first, e, place);
         storeElement(first, POSITION_ELEMENTS + e, velocity);
     }
-#ifdef LIFE
-    if (STATE_ELEMENTS % 2 == 1 && isFirstLane()) storeElement(first, STATE_ELEMENTS - 1, vec4(age, span, 0.0, 0.0));
-#endif
+    if (isMortal && STATE_ELEMENTS % 2 == 1 && isFirstLane()) storeElement(first, STATE_ELEMENTS - 1, vec4(age, span, 0.0, 0.0));
 }
-
-#ifdef NORMALS
-void storeNormals(int molecule)
-{
-    int first = firstElement(molecule, POSITION_ELEMENTS);
-    waitForGroup();
-    for (int i = 0; i < VERTICES; ++i) {
-        share(PLACES, i, normal[i]);
-    }
-    waitForGroup();
-    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) newNormals[first + e * BLOCK] = stored(sharedElement(PLACES, e));
-}
-#endif
 
 void run()
 {
-#ifdef COLLIDE
     beginContact();
-#endif
     for (int done = 0; done < substeps; ++done) {
         advance(done);
-#ifdef COLLIDE
         if (mayTouch() && findContacts(done + 1)) resolveContacts(done + 1);
-#endif
     }
 }

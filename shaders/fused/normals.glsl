@@ -1,5 +1,4 @@
 // Writes the normals of the molecule as it is. Needs storeNormals() of fused/lane.glsl or fused/group.glsl.
-#ifdef NORMALS
 void writeNormals(int molecule)
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -8,4 +7,3 @@ void writeNormals(int molecule)
     surfaceNormals();
     storeNormals(molecule);
 }
-#endif

@@ -15,9 +15,7 @@ vec3 z[VERTICES];       // m, its part that is known before the stage
 float weight[VERTICES];  // s^2/kg, 1 / (m beta) along the surface, 0 where held
 float lambda[SPRING_COUNT];  // N
 
-#ifdef DIRECTIONAL_DRAG
 float acrossLess;  // 1 - (weight across the surface) / (weight along it)
-#endif
 
 #define RELAXED(a, b) q[a], q[b], x[a] - x[b], z[a] - z[b], weight[a], weight[b], normal[a], normal[b]
 
@@ -33,20 +31,23 @@ void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, f
     float inverse = 1.0 / sqrt(max(squared, 1e-24));
     float stretch = squared * inverse - restLength;
     float parted = dot(d, moved - known) * inverse;
-#ifdef DIRECTIONAL_DRAG
-    float offA = dot(normalA, d) * inverse;
-    float offB = dot(normalB, d) * inverse;
-    float reach = alongA * (1.0 - acrossLess * offA * offA) + alongB * (1.0 - acrossLess * offB * offB);
+    float offA = 0.0;
+    float offB = 0.0;
+    float reach = alongA + alongB;
+    if (isDirectional) {
+        offA = dot(normalA, d) * inverse;
+        offB = dot(normalB, d) * inverse;
+        reach = alongA * (1.0 - acrossLess * offA * offA) + alongB * (1.0 - acrossLess * offB * offB);
+    }
     float change = relaxation(stretch, parted, pushed, reach, stiffness, dampingRate);
     vec3 impulse = d * (inverse * change);
-    qa += (impulse - normalA * (acrossLess * offA * change)) * alongA;
-    qb -= (impulse - normalB * (acrossLess * offB * change)) * alongB;
-#else
-    float change = relaxation(stretch, parted, pushed, alongA + alongB, stiffness, dampingRate);
-    vec3 impulse = d * (inverse * change);
-    qa += impulse * alongA;
-    qb -= impulse * alongB;
-#endif
+    if (isDirectional) {
+        qa += (impulse - normalA * (acrossLess * offA * change)) * alongA;
+        qb -= (impulse - normalB * (acrossLess * offB * change)) * alongB;
+    } else {
+        qa += impulse * alongA;
+        qb -= impulse * alongB;
+    }
     pushed += change;
 }
 

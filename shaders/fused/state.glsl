@@ -57,12 +57,14 @@ int slips;  // not 0: drag is so heavy that positions drift by the new velocity 
 int restarts;  // not 0: a solver with history forgets the last substep
 
 #ifdef SOFTWARE
+const bool isSoftware = true;
 int inRegister(int value) { return min(value, 2147483647); }
 float inRegister(float value) { return min(value, 3.4e38); }
 vec2 inRegister(vec2 value) { return min(value, vec2(3.4e38)); }
 vec3 inRegister(vec3 value) { return min(value, vec3(3.4e38)); }
 vec4 inRegister(vec4 value) { return min(value, vec4(3.4e38)); }
 #else
+const bool isSoftware = false;
 int inRegister(int value) { return value; }
 float inRegister(float value) { return value; }
 vec2 inRegister(vec2 value) { return value; }
@@ -94,14 +96,10 @@ void loadUniforms()
     releaseChance = inRegister(givenNumbers[6].y);
 }
 
-#if defined(SOFTWARE) && !defined(GROUP_VOTE)
 // Returns `now`. Where each lane leaves the loop over the substeps by itself, Mesa's rasteriser keeps a lane's value
 // after the loop only if a turn computes it from the turn before. Any other value becomes that of the turn in which the
 // last lane left.
-vec3 carried(vec3 before, vec3 now) { return substeps > 0 ? now : before; }
-#else
-vec3 carried(vec3 before, vec3 now) { return now; }
-#endif
+vec3 carried(vec3 before, vec3 now) { return !CARRIES || substeps > 0 ? now : before; }
 
 vec3 x[VERTICES];       // m, relative to the anchor
 vec3 v[VERTICES];       // m/s
@@ -112,18 +110,6 @@ vec3 fluid[VERTICES];   // m/s, the fields' velocity there
 vec3 normal[VERTICES];  // unit, of the surface there
 #if defined(FORCES) || defined(STEERED)
 vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
-#endif
-
-#ifdef REMEMBERS
-#include "state/numbered.glsl"
-#include "contact/rest/states.glsl"
-
-uniform FLOATS contactLoads;  // m/s^2, by sphere; w who moves it (contact/rest/states.glsl)
-uniform int firstSphere;      // of the part
-vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/response/apply.pass.glsl)
-#ifdef RIGID_IMPACT
-bool heldByContact = true;    // contact with other molecules answers the colliders as well
-#endif
 #endif
 
 vec3 anchor;            // m
@@ -138,6 +124,12 @@ bool touched = false;   // a collider, in this frame
 const bool isMortal = true;
 #else
 const bool isMortal = false;
+#endif
+
+#ifdef HISTORY
+const bool hasHistory = true;  // of the substep before
+#else
+const bool hasHistory = false;
 #endif
 
 // Whether there is a molecule.

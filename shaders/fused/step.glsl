@@ -11,11 +11,6 @@
 #else
 #define PULLED(i) gravity
 #endif
-#ifdef REMEMBERS
-#define LOAD(i) load[i]
-#else
-#define LOAD(i) vec3(0.0)
-#endif
 #define FALL(i) (PULLED(i) + LOAD(i))
 
 bool isHeld(bool pinned)
@@ -35,25 +30,22 @@ void letGo(int step)
 // Fields that are read once a frame are read where the molecule will be in the middle of it.
 void sampleFrame()
 {
-#if defined(FIELDS) && !defined(SAMPLE_SUBSTEPS)
+    if (!hasFields || SAMPLE_SUBSTEPS) return;
     float middle = 0.5 * frameDuration;
-#ifdef HISTORY
-    middle += 0.5 * substep;  // substeps ask for the field at their ends
-#endif
+    if (hasHistory) middle += 0.5 * substep;  // substeps ask for the field at their ends
     for (int i = 0; i < VERTICES; ++i) {
         probe[i] = x[i] + v[i] * middle;
     }
-#ifdef SAMPLE_MOLECULE
-    vec3 u = fieldAt(anchor, meanProbe(), middle);
-    for (int i = 0; i < VERTICES; ++i) {
-        fluid[i] = u;
+    if (SAMPLE_MOLECULE) {
+        vec3 u = fieldAt(anchor, meanProbe(), middle);
+        for (int i = 0; i < VERTICES; ++i) {
+            fluid[i] = u;
+        }
+        return;
     }
-#else
     for (int j = 0; j < VERTICES; ++j) {
         fluid[j] = fieldAt(anchor, probe[j], middle);
     }
-#endif
-#endif
 }
 
 // Reads, at every probe, the fields that are read in every substep, and the forces: once a frame would be too seldom
@@ -75,11 +67,10 @@ void sampleSubstep(float time)
 #endif
     }
 #endif
-#if defined(FIELDS) && defined(SAMPLE_SUBSTEPS)
+    if (!hasFields || !SAMPLE_SUBSTEPS) return;
     for (int j = 0; j < VERTICES; ++j) {
         fluid[j] = fieldAt(anchor, probe[j], time);
     }
-#endif
 }
 
 // The fields, and where drag has a direction the normals, at the vertices as they are.
@@ -88,21 +79,19 @@ void sampleHere(float time)
     for (int i = 0; i < VERTICES; ++i) {
         probe[i] = x[i];
     }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
+    if (isDirectional) surfaceNormals();
     sampleSubstep(time);
 }
 
 // The springs' forces at a time, from x and v, and whether the pins hold them.
 void springForcesNow(int step, float time)
 {
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        w[i] = v[i];
+    if (SPRINGS) {
+        for (int i = 0; i < VERTICES; ++i) {
+            w[i] = v[i];
+        }
+        springForces(time);
     }
-    springForces(time);
-#endif
     letGo(step);
 }
 
@@ -110,11 +99,10 @@ void springForcesNow(int step, float time)
 void kickWhole(int step, float time)
 {
     springForcesNow(step, time);
-#ifdef SPRINGS
+    if (!SPRINGS) return;
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) v[i] += springKick(force[i], inverseMass[i], substep);
     }
-#endif
 }
 
 // Drag and gravity over the substep on all that is not held, and its drift.
@@ -170,8 +158,6 @@ vec3 flight(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     vec3 slope = dragAcceleration(velocity, u, a, n);
     vec3 bend = slope * flightBend.y;
-#ifdef DIRECTIONAL_DRAG
-    bend += n * (dot(slope, n) * (flightBend.x - flightBend.y));
-#endif
+    if (isDirectional) bend += n * (dot(slope, n) * (flightBend.x - flightBend.y));
     return velocity * substep + bend;
 }

@@ -19,13 +19,11 @@ void main()
         vec3 shift = texelFetch(gains, ivec3(texelOf(sphere + i), 1), 0).xyz;
         x[i] += shift;
         v[i] += velocity;
-#ifdef HISTORY
-        if (texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).w > 0.0) {
+        if (hasHistory && texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).w > 0.0) {
             // A slow vertex goes on as if it had always moved so, any other starts anew (fused/bdf2.glsl).
-            dx[i] = length(v[i]) < restSpeed ? v[i] * substepTime : vec3(NO_HISTORY);
+            dx[i] = length(v[i]) < restSpeed ? v[i] * substepTime : vec3(noHistory);
             dv[i] = vec3(0.0);
         }
-#endif
     }
     storeState(molecule);
 }

@@ -6,8 +6,6 @@ void main()
 {
     int molecule = ownMolecule();
     loadState(molecule);
-#ifdef LIFE
     if (!taken()) discard;
-#endif
     if (!runsAway()) discard;
 }

@@ -1,8 +1,7 @@
 // The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups holds
-// 1 + the number of the frame; in fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it
+// 1 + the number of the frame (fused/alarm.glsl); in fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it
 // looks.
 #include "fused/state.glsl"
-#ifdef WATCH
 #include "physics/runaway.glsl"
 
 bool runsAway()
@@ -15,22 +14,3 @@ bool runsAway()
     }
     return isRunaway(speed, squareBits(places));
 }
-
-#ifndef LAYERED
-layout(std430) buffer Alarm { uint alarm; };
-
-void watch()
-{
-    if (runsAway()) alarm = uint(givenCounts.x) + 1u;
-}
-
-#ifdef ISSUED_AHEAD
-// Whether an earlier frame left a state that ran away.
-bool comesTooLate()
-{
-    uint raised = alarm;
-    return raised != 0u && raised != uint(givenCounts.x) + 1u;
-}
-#endif
-#endif
-#endif

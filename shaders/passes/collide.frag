@@ -3,9 +3,7 @@
 #include "state/textures.glsl"
 #include "passes/load.glsl"
 #include "generated/colliders.glsl"
-#ifdef TABLED
 #include "step/cut_short.glsl"
-#endif
 
 uniform vec3 gravity;  // m/s^2
 #include "step/fall.glsl"
@@ -42,18 +40,12 @@ void main()
 #endif
         vec3 whole = v + kick;
         Drift drifted = Drift(drift.x, drift.y, drift.z, acceleration);
-#ifdef JOINT_CONTACT
         Contact contact = Contact(x, whole);
         if (margin(anchor, x, v, drift.x, contactTime) < 0.0)
             contact = collideAll(anchor, x, whole, v, fall, drifted, contactTime);
-#else
-        Contact contact = collideAll(anchor, x, whole, drifted);
-#endif
         x = contact.position;
         v = withoutKick(contact.velocity, v, kick);
-#ifdef TABLED
-        if (turns > mostTurns) x = cutShort();
-#endif
+        if (areTabled && turns > mostTurns) x = cutShort();
     }
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);

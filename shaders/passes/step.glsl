@@ -22,8 +22,6 @@ uniform bool moveAnchors;  // in the first substep: to where the records pass ha
 // Returns how far a molecule's anchor has moved, in m. `places`: where it was followed from.
 vec3 anchorMove(sampler2D places, int molecule)
 {
-#ifdef RECORDS
-    if (moveAnchors) return anchorShift(texelFetch(places, stateTexel(0, molecule), 0).xyz);
-#endif
+    if (ANCHORS_MOVE && moveAnchors) return anchorShift(texelFetch(places, stateTexel(0, molecule), 0).xyz);
     return vec3(0.0);
 }

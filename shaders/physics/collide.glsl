@@ -153,14 +153,18 @@ vec3 heldBy(vec3 n, float friction, vec3 acceleration)
     return holds ? vec3(0.0f) : acceleration;
 }
 
+// Whether contact is a constraint on the position.
+#ifdef VERLET
+const bool isConstraint = true;
+#else
+const bool isConstraint = false;
+#endif
+
 // Contact as the solver takes it; `inside` as for respond.
 Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, float restitution, float friction, Drift drift)
 {
-#ifdef VERLET
-    return constrain(inside, x, v, distance, n, friction, drift.step);
-#else
+    if (isConstraint) return constrain(inside, x, v, distance, n, friction, drift.step);
     return respond(inside, x, v, distance, n, restitution, friction, drift);
-#endif
 }
 
 // Height field cell: bilinear height from the four corner heights, fractions f in [0, 1].

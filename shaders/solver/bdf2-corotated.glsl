@@ -75,9 +75,7 @@ float improve(float time)
     stageForces(time, 1.0 / eta);
     for (int i = 0; i < VERTICES; ++i) {
         vec3 gone = q[i] - start[i];
-#ifdef DIRECTIONAL_DRAG
-        gone += normal[i] * (dot(normal[i], gone) * (acrossLess / (1.0 - acrossLess)));
-#endif
+        if (isDirectional) gone += normal[i] * (dot(normal[i], gone) * (acrossLess / (1.0 - acrossLess)));
         residual[i] = (force[i] - gone / max(weight[i], 1e-30)) * turn;
     }
     applyInverse();

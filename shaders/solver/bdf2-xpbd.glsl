@@ -9,11 +9,9 @@ void beginSolver()
 void advance(int step)
 {
     predict(step);
-#ifdef SPRINGS
     float time = float(step + 1) * substep;
-    relaxForward(time, 1.0 / eta);
-    relaxBackward(time, 1.0 / eta);
-#endif
+    if (SPRINGS) relaxForward(time, 1.0 / eta);
+    if (SPRINGS) relaxBackward(time, 1.0 / eta);
     accept();
 }
 

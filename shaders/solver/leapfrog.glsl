@@ -5,36 +5,38 @@
 // The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
 
-#ifdef SPRINGS
 vec3 acceleration[VERTICES];  // m/s^2, of the springs
 #define SPRUNG(i) acceleration[i]
-#endif
+const bool owesKick = SPRINGS;
+#define OWED(i) (SPRINGS ? acceleration[i] * (0.5 * substep) : vec3(0.0))
+
+// It holds nothing on colliders within its stages, as Runge-Kutta methods do.
+void findFooting(float time)
+{
+}
 
 void beginSolver()
 {
-#ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
         acceleration[i] = vec3(0.0);
     }
-#endif
 }
 
 // Forces at time, from the velocity kickTime ahead, and the kick over kickTime. `step`: substeps done.
 void kickBySprings(int step, float kickTime)
 {
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        w[i] = v[i] + acceleration[i] * kickTime;
+    if (SPRINGS) {
+        for (int i = 0; i < VERTICES; ++i) {
+            w[i] = v[i] + acceleration[i] * kickTime;
+        }
+        springForces(float(step) * substep);
     }
-    springForces(float(step) * substep);
-#endif
     letGo(step);
-#ifdef SPRINGS
+    if (!SPRINGS) return;
     for (int i = 0; i < VERTICES; ++i) {
         acceleration[i] = isHeld(pinned[i]) ? vec3(0.0) : force[i] * inverseMass[i];
         v[i] += acceleration[i] * kickTime;
     }
-#endif
 }
 
 // A substep up to contact.
@@ -46,14 +48,10 @@ void advance(int step)
     if (step > 0) thrust(false);
     thrust(false);
     for (int i = 0; i < VERTICES; ++i) {
-#ifdef SPRINGS
-        v[i] += acceleration[i] * halfStep;
-#endif
+        if (SPRINGS) v[i] += acceleration[i] * halfStep;
         probe[i] = x[i] + v[i] * halfStep;
     }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
+    if (isDirectional) surfaceNormals();
     sampleSubstep((float(step) + 0.5) * substep);
     driftAll();
 }

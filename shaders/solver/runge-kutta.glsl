@@ -11,27 +11,22 @@ vec3 sumAcceleration[VERTICES];  // of b a
 
 // m/s^2, of the springs and of drag over the substep, for contact.
 #define SPRUNG(i) (sumAcceleration[i] - FALL(i))
+#define OWED(i) vec3(0.0)
+const bool owesKick = false;
 
-#ifdef COLLIDE
-#define FOOTING
 vec4 standsOn[VERTICES];  // what a vertex at rest rests on: its normal and friction; w negative: nothing
 
 void findFooting(float time)
 {
     for (int k = 0; k < VERTICES; ++k) {
         standsOn[k] = v[k] == vec3(0.0) ? footing(anchor, x[k], time) : vec4(0.0, 0.0, 0.0, -1.0);
-#ifdef TOUCH_COUNTS
         touched = touched || standsOn[k].w >= 0.0;
-#endif
     }
 }
-#endif
 
 void beginSolver()
 {
-#ifdef COLLIDE
-    findFooting(0.0);
-#endif
+    if (COLLIDE) findFooting(0.0);
 }
 
 // Stage s: adds up its rates at x, v and moves x, v to the next, or to the substep's end.
@@ -42,12 +37,8 @@ void stage(int s, int step, float time)
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         vec3 a = dragAcceleration(v[i], fluid[i], FALL(i), normal[i]);
-#ifdef SPRINGS
-        a += force[i] * inverseMass[i];
-#endif
-#ifdef COLLIDE
-        a = heldBy(standsOn[i].xyz, standsOn[i].w, a);
-#endif
+        if (SPRINGS) a += force[i] * inverseMass[i];
+        if (COLLIDE) a = heldBy(standsOn[i].xyz, standsOn[i].w, a);
         sumVelocity[i] += v[i] * shareOf(s);
         sumAcceleration[i] += a * shareOf(s);
         if (!isHeld(pinned[i])) {
@@ -64,9 +55,7 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         startPosition[i] = x[i];
         startVelocity[i] = v[i];
-#ifdef COLLIDE
         if (v[i] != vec3(0.0)) standsOn[i].w = -1.0;
-#endif
         sumVelocity[i] = vec3(0.0);
         sumAcceleration[i] = vec3(0.0);
     }

@@ -3,15 +3,20 @@
 
 vec3 sprungBy[VERTICES];  // m/s^2, of the springs over the substep, for contact
 #define SPRUNG(i) sprungBy[i]
+#define OWED(i) vec3(0.0)
+const bool owesKick = false;
+
+// It holds nothing on colliders within its stages, as Runge-Kutta methods do.
+void findFooting(float time)
+{
+}
 
 void beginSolver()
 {
     for (int i = 0; i < VERTICES; ++i) {
         sprungBy[i] = vec3(0.0);
     }
-#ifdef DIRECTIONAL_DRAG
-    acrossLess = 1.0 - phi.x / phi.y;
-#endif
+    acrossLess = isDirectional ? 1.0 - phi.x / phi.y : 0.0;
 }
 
 // A substep up to contact.
@@ -28,9 +33,7 @@ void advance(int step)
         q[i] = w[i] * substep;
         weight[i] = held ? 0.0 : inverseMass[i] * (substep * phi.y);
     }
-#ifdef SPRINGS
-    relaxForward(time + substep, 1.0 / substep);
-#endif
+    if (SPRINGS) relaxForward(time + substep, 1.0 / substep);
     for (int i = 0; i < VERTICES; ++i) {
         v[i] = q[i] / substep;
         sprungBy[i] = carried(sprungBy[i], (v[i] - w[i]) / substep);

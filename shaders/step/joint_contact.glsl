@@ -11,11 +11,7 @@
 
 const float touching = 1e-5;  // m: what is nearer touches
 const float retouching = 1e-6;  // m: rounding may put a vertex this far back into a surface that has been answered
-#ifdef VERLET
-const float stillSquared = 1e-8;  // m^2/s^2: at rest, but for the rounding of positions over a substep
-#else
-const float stillSquared = 1e-10;
-#endif
+const float stillSquared = isConstraint ? 1e-8 : 1e-10;  // m^2/s^2: at rest, but for the rounding of positions over a substep
 const int mostMarches = 48;   // steps along a way
 const int mostTouches = alone ? 1 : 6;  // of a substep; a vertex that touches more of several stops there
 
@@ -35,9 +31,7 @@ void keepToBoth(inout Contact c, vec3 a, vec3 b, vec2 off, vec2 speeds)
 // With verlet contact is a constraint on the position: the velocity is what that leaves.
 void followPosition(inout Contact c, vec3 position, vec3 velocity, float step)
 {
-#ifdef VERLET
-    c.velocity = velocity + (c.position - position) / step;
-#endif
+    if (isConstraint) c.velocity = velocity + (c.position - position) / step;
 }
 
 // Whether neither surface alone takes the velocity out of the other.
@@ -51,16 +45,10 @@ bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
 Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3 gravity, Drift drift, float time)
 {
     Contact c = Contact(position, velocity);
-#ifdef RIGID_IMPACT
     struckLast = vec4(0.0, 0.0, 0.0, -1.0);
-#endif
     Way way = Way(position - drifted * drift.step, time - drift.step, ivec3(-1), false);
-#ifdef SWEPT
-    setWay(drifted, drift.step);
-#endif
-#ifdef TABLED
-    gatherNear(anchor, way.from, 3.0 * length(drifted) * drift.step + 1e-3);
-#endif
+    if (areSwept) setWay(drifted, drift.step);
+    if (areTabled) gatherNear(anchor, way.from, 3.0 * length(drifted) * drift.step + 1e-3);
     Survey at;
     Touch before = noTouch();
     float beforeOff = 0.0;  // of the plane of `before`
@@ -69,12 +57,10 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     int secondLast = -2;
     for (int n = 0; n < mostTouches; ++n) {
         Touch t = nextTouch(anchor, c, way, time, n == 0, at);
-#ifdef SWEPT
-        if (way.caught) {
+        if (areSwept && way.caught) {
             t = at.deepest;
             if (!alone) t.normal = wayOut(at, gravity);
         }
-#endif
         if (t.distance >= 0.0) break;
         if (t.which == secondLast && t.distance > -retouching) {
             way.skip = ivec3(t.which, before.which, -1);
@@ -93,15 +79,9 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         vec2 material = materialOf(t);
         Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, material.x, material.y,
                            drift);
-#ifdef RIGID_IMPACT
         struckLast = vec4(t.normal, way.caught ? -1.0 : material.y);
         struckVelocity = t.velocity;
-#endif
-#ifdef VERLET
-        bool rests = true;  // nothing bounces
-#else
-        bool rests = dot(r.velocity, t.normal) < 1e-5;
-#endif
+        bool rests = isConstraint || dot(r.velocity, t.normal) < 1e-5;  // on a constraint nothing bounces
         r.velocity += t.velocity;
         if (!alone && n > 0) {
             vec2 offs = vec2(dot(r.position, before.normal) - beforeOff, dot(r.position, t.normal) - off);
@@ -144,7 +124,6 @@ vec4 footing(vec3 anchor, vec3 position, float time)
     return vec4(t.normal, rests ? materialOf(t).y : -1.0);
 }
 
-#ifdef NEAREST
 // Answers a vertex, as collideAll does, where its nearest surface at the substep's end is all that matters:
 // one look for finding, response and the way out. Returns whether that is so; if not, its way has to be followed.
 bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, Drift drift)
@@ -171,4 +150,3 @@ bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, Drift drift)
     if (touches && answered) c = r;
     return answered;
 }
-#endif

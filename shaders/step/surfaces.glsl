@@ -23,12 +23,10 @@ void takeRadius(float scale, float lived)
 }
 #endif
 
-#ifdef RIGID_IMPACT
 // The surface that a vertex has struck last in this substep: its normal and friction, and its velocity; w
 // negative: none.
 vec4 struckLast;
 vec3 struckVelocity;
-#endif
 
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 

@@ -1,6 +1,5 @@
 // The way of a vertex through a substep, followed from touch to touch.
 
-#ifdef SWEPT
 // Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
 // because this is asked of every vertex in every substep.
 float beyondReach(float free, vec3 velocity, float step)
@@ -26,17 +25,12 @@ vec3 wayOut(Survey s, vec3 gravity)
     vec3 across = dot(up, up) > 1e-6 ? -normalize(up) : normalize(cross(t.normal, other));
     return together > 0.1 ? s.outwards / together : across;
 }
-#endif
 
 // Negative where a vertex is inside a collider, or so near that it may have crossed one.
 float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
 {
     vec2 free = clearances(anchor, position, time);
-#ifdef SWEPT
-    return min(free.x, beyondReach(free.y, velocity, step));
-#else
-    return free.x;
-#endif
+    return areSwept ? min(free.x, beyondReach(free.y, velocity, step)) : free.x;
 }
 
 // Where a vertex is on its way through a substep.
@@ -57,29 +51,23 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
 {
     Touch found = noTouch();
     float ago = -1.0;  // s
-#ifdef TABLED
     // Within the ball that was searched, a vertex can touch only the listed colliders. A moving one may throw it out of
     // the ball.
-    if (max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
-#endif
-#ifdef SWEPT
+    if (areTabled && max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
+    if (!areSwept) at = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
     vec3 path = c.position - way.from;
     float span = end - way.begin;
     float most = max(length(path) + fastestSurface() * span, 1e-20);
     float s = 0.0;  // share of the way; 1: its end
     bool there = false;
-    for (int n = 0; n <= mostMarches; ++n) {
+    for (int n = 0; areSwept && n <= mostMarches; ++n) {
         bool ends = s >= 1.0 || n == mostMarches;
-#ifdef TABLED
-        ends = ends || turns > mostTurns;
-#endif
+        ends = ends || (areTabled && turns > mostTurns);
         at = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
                     ivec3(way.skip.xy, found.which));
         if (ends) break;
         way.caught = way.caught || (first && n == 0 && at.inmost < -caughtDepth);
-#ifdef TABLED
-        if (way.caught) nearKnown = false;  // it may come out far away
-#endif
+        if (areTabled && way.caught) nearKnown = false;  // it may come out far away
         Touch near = at.swept;
         bool last = n == mostMarches - 1;
         float approach = dot(path - near.velocity * span, near.normal);
@@ -103,10 +91,7 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
             s = 1.0;
         }
     }
-    found.velocity = at.asked;  // where the substep ends, as of a solid one
-#else
-    at = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
-#endif
+    if (areSwept) found.velocity = at.asked;  // where the substep ends, as of a solid one
     if (at.entered > ago) found = at.solid;
     return found;
 }

@@ -143,7 +143,8 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
     }
     out.survey = concat(middle, "    if (nearKnown) {\n", listed, "    } else {\n", full, "    }\n");
     out.gather = concat(
-        "#define TABLED\n\nint turns = 0;  // of the loops over all, on the ways of this molecule\n#ifdef "
+        "const bool areTabled = true;\n\nint turns = 0;  // of the loops over all, on the ways of this "
+        "molecule\n#ifdef "
         "FUSED\nconst int "
         "mostTurns = ",
         mostTurns, ";\n#else\nconst int mostTurns = ", mostTurnsOfPass,

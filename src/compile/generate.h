@@ -45,15 +45,15 @@ struct GeneratedColliders : Generated {
     size_t turns = 0;                    // of loops, about, for a look at all (compile/collider_table.h)
 };
 
-// Whether a vertex has contact with all of them at once, with JOINT_CONTACT: not where there is only one
+// Whether a vertex has contact with all of them at once: not where there is only one
 // plane or height field that stands still.
 bool respondTogether(const std::vector<Collider>& colliders);
 
 // float clearance(vec3 anchor, vec3 position, float time): m from the nearest surface, negative inside. For
 // one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3 velocity,
 // Drift drift), which responds where that is negative, and its parts, vec4 surfaceAt(vec3 anchor, vec3
-// position) and Contact answerTo(vec4 surface, vec3 position, vec3 velocity, Drift drift). For all else, with
-// JOINT_CONTACT defined, those of shaders/step/joint_contact.glsl; what uniforms have no room for goes into
+// position) and Contact answerTo(vec4 surface, vec3 position, vec3 velocity, Drift drift). For all else,
+// those of shaders/step/joint_contact.glsl; what uniforms have no room for goes into
 // the samples (compile/collider_table.h).
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 

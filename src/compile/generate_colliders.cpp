@@ -97,6 +97,10 @@ class ColliderWriter {
     std::vector<glm::vec4>* samples_;
 };
 
+std::string truth(const char* name, bool value) {
+    return concat("const bool ", name, value ? " = true;\n" : " = false;\n");
+}
+
 std::string sourceOfOne(const Text& text) {
     return concat(
         "// xyz unit normal, w m from the surface, less its thickness; negative inside.\n",
@@ -105,9 +109,8 @@ std::string sourceOfOne(const Text& text) {
         text.material,
         ".z, contactRadius));\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 "
         "position, vec3 ",
-        "velocity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
-        "surface.w < 0.0 ? ", text.material,
-        ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return ",
+        "velocity, Drift drift)\n{\n    struckLast = vec4(surface.xyz, ", "surface.w < 0.0 ? ", text.material,
+        ".y : -1.0);\n    struckVelocity = vec3(0.0);\n    return ",
         "answer(false, position, velocity, surface.w, surface.xyz, ", text.material, ".x, ", text.material,
         ".y, drift);\n}\n\nContact collideAll(vec3 anchor, vec3 position, vec3 velocity, "
         "Drift ",
@@ -116,7 +119,7 @@ std::string sourceOfOne(const Text& text) {
         "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return surfaceAt(anchor, "
         "position).w;\n}\n\nvec4 footing(vec3 anchor, vec3 position, float time)\n{\n    vec4 surface = "
         "surfaceAt(anchor, position);\n    return vec4(surface.xyz, abs(surface.w) < restingSlack ? ",
-        text.material, ".y : -1.0);\n}\n");
+        text.material, ".y : -1.0);\n}\n\n#include \"step/one_contact.glsl\"\n");
 }
 
 class Joint {
@@ -196,12 +199,11 @@ class Joint {
 
     std::string source(const GeneratedColliders& out, const std::string& fastest) const {
         return concat(
-            "#define JOINT_CONTACT\n", swept_ ? "#define SWEPT\n" : "",
-            nearestIsEnough() ? "#define NEAREST\n" : "", isBounded() ? "#define BOUNDED\n" : "",
+            truth("areSwept", swept_), truth("nearestIsEnough", nearestIsEnough()),
+            truth("areBounded", isBounded()),
             "#include \"physics/collide.glsl\"\n#include \"step/surfaces.glsl\"\n",
             "#include \"step/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
-            "const bool collidersMove = ", out.moving.empty() ? "false" : "true", ";\n",
-            "const bool alone = ", colliders_->size() == 1 ? "true" : "false", ";  // a single collider\n\n",
+            truth("collidersMove", !out.moving.empty()), truth("alone", colliders_->size() == 1), "\n",
             "// Restitution and friction.\nvec2 materialOf(Touch t)\n{\n",
             table_.empty() ? ""
                            : "    // of a collider in the table: -1 - the uniform's index\n"
@@ -219,7 +221,8 @@ class Joint {
             clearances_, "    return vec2(min(least.x, least.y), least.y);\n}\n\n",
             "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return clearances(anchor, "
             "position, time).x;\n}\n\n",
-            gather_, "// Nearest and first: of all but those whose numbers are skip.xy.\n",
+            table_.empty() ? "#include \"step/no_table.glsl\"\n" : gather_,
+            "// Nearest and first: of all but those whose numbers are skip.xy.\n",
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
             survey_, "    return s;\n}\n\n",
@@ -273,7 +276,7 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
     const std::string body = colliders.empty() ? "" : sourceOfOne(writer.text(colliders[0], 0));
     GeneratedColliders out = std::move(writer.result);
     const bool dear = samples.size() > before;  // what reads samples
-    out.source = concat(dear ? "#define KEEP_SURFACE\n" : "", "#include \"physics/collide.glsl\"\n",
+    out.source = concat(truth("keepsSurface", dear), "#include \"physics/collide.glsl\"\n",
                         "#include \"step/surfaces.glsl\"\n",
                         parameterArray("colliderParameters", out.parameters.size()), body);
     return out;

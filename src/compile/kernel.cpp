@@ -357,10 +357,14 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";
-    if (needs.springs) text.forces += springText(molecule, needs);
-    if (needs.normals) text.forces += normalText(molecule);
+    text.forces += needs.springs ? springText(molecule, needs) : "void springForces(float time)\n{\n}\n";
+    text.forces += needs.normals ? normalText(molecule) : "\nvoid surfaceNormals()\n{\n}\n";
     if (solver.implicit && needs.springs)
         text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);
+    else if (solver.implicit)
+        text.sweeps =
+            "void relaxForward(float time, float inverseEta)\n{\n}\n\n"
+            "void relaxBackward(float time, float inverseEta)\n{\n}\n";
     if (solver.kind == SolverKind::bdf2Corotated)
         text.sweeps += stageText(molecule, needs) +
                        corotatedText(molecule, corotatedPattern(molecule, needs.pins), needs.pins);

@@ -27,7 +27,7 @@ void defineLife(const LifePlan& life, bool births, std::vector<std::string>& out
         if (need) out.emplace_back(name);
     };
     define(life.feeds, "DEATHS");
-    define(cycle.within.has_value(), "CONFINED");
+    out.push_back(gpu::constant("CONFINED", cycle.within.has_value()));
     define(cycle.afterContact.has_value(), "TOUCH_COUNTS");
     if (!births) return;
     out.push_back(concat("RUNS ", std::max(1, mostRuns(cycle))));
@@ -38,6 +38,53 @@ using Work = KernelOptions::Work;
 
 bool writesNormals(const GroupPlan& group, const KernelOptions& options) {
     return group.needs.normals && (options.normals || options.work == Work::normals);
+}
+
+// Whether contact with other molecules acts on the step.
+bool remembers(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
+    return options.work == Work::frame && plan.contact.remembers() &&
+           plan.contact.of(size_t(&group - plan.groups.data()));
+}
+
+bool raisesAlarm(const KernelOptions& options) {
+    return options.watch && options.work == Work::frame && !options.targets;
+}
+
+bool votes(const GroupPlan& group, const KernelOptions& options) {
+    return options.groupVote && options.lanes == Lanes::molecule && group.needs.collide;
+}
+
+bool answersAsBody(const GroupPlan& group, const KernelOptions& options) {
+    return group.rigid && group.needs.collide && options.lanes == Lanes::molecule;
+}
+
+// What ordinary conditions of the shaders ask for.
+std::vector<std::string> constants(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
+    using gpu::constant;
+    const Needs& needs = group.needs;
+    const bool perLane = options.lanes == Lanes::molecule, births = options.work == Work::births;
+    // only with such loops can a frame turn more often than it may (compile/collider_table.h), or than a CPU
+    // rasteriser takes (gpu/context.h)
+    const bool mayBeCut =
+        (needs.collide && plan.colliders.turns > 0) ||
+        (options.software && (plan.longFields || !perLane || (needs.collide && plan.jointContact)));
+    const bool acts = remembers(plan, group, options), isBody = answersAsBody(group, options),
+               mayDieOfTouch = needs.life && group.life->cycle.afterContact.has_value();
+    return {constant("LANE_A_VERTEX", !perLane),
+            constant("MAY_BE_CUT", mayBeCut),
+            constant("CARRIES", options.software && !votes(group, options)),
+            constant("TOGETHER", needs.collide && (options.software || votes(group, options))),
+            constant("ISSUED_AHEAD", raisesAlarm(options) && options.ahead),
+            constant("RESTS", acts && !options.targets && plan.contact.mayRest(group)),
+            constant("MAY_BE_HELD", acts && isBody && !mayDieOfTouch),
+            constant("RIGID_IMPACT", isBody),
+            constant("COLLIDE", needs.collide),
+            constant("ANCHORS_MOVE", needs.records),
+            constant("RELEASE", needs.release),
+            constant("PINS", needs.pins),
+            constant("SPRINGS", needs.springs),
+            constant("SAMPLE_SUBSTEPS", births || plan.fieldSampling == FieldSampling::vertexSubstep),
+            constant("SAMPLE_MOLECULE", !births && plan.fieldSampling == FieldSampling::moleculeFrame)};
 }
 
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
@@ -60,31 +107,18 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     };
     define(true, "FUSED");
     define(options.software, "SOFTWARE");
-    // only with such loops can a frame turn more often than it may (compile/collider_table.h), or than a CPU
-    // rasteriser takes (gpu/context.h)
-    define((needs.collide && plan.colliders.turns > 0) ||
-               (options.software && (plan.longFields || !perLane || (needs.collide && plan.jointContact))),
-           "MAY_BE_CUT");
-    define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
-    define(writesNormals(group, options), "NORMALS");
-    if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.targets)) {
-        out.emplace_back("WATCH");
-        out.push_back(fastestDefine());
-        define(options.ahead, "ISSUED_AHEAD");
-    }
+    define(votes(group, options), "GROUP_VOTE");
+    if (options.work == Work::watch || raisesAlarm(options)) out.push_back(fastestDefine());
     const ContactGroup* contact = plan.contact.of(size_t(&group - plan.groups.data()));
-    const bool remembers = options.work == Work::frame && contact && plan.contact.remembers();
-    if (options.work == Work::touched || remembers) {
+    if (options.work == Work::touched || remembers(plan, group, options)) {
         EXPECTS(contact);
         out.push_back(concat("SPHERES ", contact->spheresOf));
-        define(remembers, "REMEMBERS");
-        define(remembers && !options.targets && plan.contact.mayRest(group), "RESTING");
         if (options.targets)
             out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
     }
     define(needs.records, "RECORDS");
-    out.insert(out.end(), {gpu::constant("PINS", needs.pins), gpu::constant("RELEASE", needs.release)});
-    define(needs.springs, "SPRINGS");
+    for (const std::string& one : constants(plan, group, options))
+        out.push_back(one);
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
     if (solver(group.solver).rungeKutta())
@@ -92,17 +126,13 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.actuation || (needs.steers && !perLane), "MUSCLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
-    define(births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
-    define(!births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.forces, "FORCES");
     define(needs.thrust, "THRUST");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
-    define(needs.collide, "COLLIDE");
     if (needs.collide && contact && !births)
         for (const std::string& one : contact->defines())
             out.push_back(one);
-    define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (births && options.targets)
         out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", std::countr_zero(unsigned(stateWidth)))});
@@ -124,11 +154,10 @@ std::string parameterLoads(const GroupPlan& group, const KernelOptions& options)
 }
 
 // The files of a kernel in the order in which they build on one another.
-std::string rootText(const GroupPlan& group, const KernelOptions& options) {
+std::string rootText(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const bool perLane = options.lanes == Lanes::molecule;
     std::string out;
-    if (options.groupVote && perLane && group.needs.collide)
-        out += "#extension GL_ARB_shader_group_vote : require\n";
+    if (votes(group, options)) out += "#extension GL_ARB_shader_group_vote : require\n";
     const auto include = [&](bool need, const std::string& file) {
         if (need) out += concat("#include \"", file, "\"\n");
     };
@@ -141,21 +170,35 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     // This include is never under a condition: a file that it includes would be left out with it, and a later
     // include of that file does nothing.
     include(group.needs.fields, "generated/fields.glsl");
+    include(true, remembers(plan, group, options) ? "fused/loads.glsl" : "fused/no_loads.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
         return out + parameterLoads(group, options) + "#include \"births/spawn.glsl\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
-        include(group.needs.springs, "generated/sweeps.glsl");
+        include(true, "generated/sweeps.glsl");
     }
-    include(group.needs.collide, "generated/colliders.glsl");
-    include(solver(group.solver).history, "fused/bdf2.glsl");
+    include(true, group.needs.collide ? "generated/colliders.glsl" : "fused/no_contact.glsl");
+    include(true, solver(group.solver).history ? "fused/bdf2.glsl" : "fused/no_history.glsl");
     include(true, concat("solver/", solver(group.solver).shader(), ".glsl"));
-    include(group.needs.collide, "fused/contact.glsl");
+    if (group.needs.collide) {
+        include(true, "fused/answers.glsl");
+        include(true, answersAsBody(group, options) ? "fused/body.glsl" : "fused/no_body.glsl");
+        include(true, plan.jointContact ? "fused/joint_contact.glsl" : "fused/contact.glsl");
+    }
+    const bool normals = writesNormals(group, options);
+    include(true, options.targets ? "fused/layers.glsl" : "fused/buffers.glsl");
+    include(normals && !options.targets, "fused/new_normals.glsl");
     include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
+    include(normals && !perLane, "fused/group_normals.glsl");
     out += parameterLoads(group, options);
-    include(options.work == Work::frame, "fused/frame.glsl");
+    if (options.work == Work::frame) {
+        include(true, normals ? "fused/normals.glsl" : "fused/no_normals.glsl");
+        include(true, raisesAlarm(options) ? "fused/alarm.glsl" : "fused/no_alarm.glsl");
+        include(true, group.needs.life ? "particles/age.glsl" : "fused/ageless.glsl");
+        include(true, "fused/frame.glsl");
+    }
     include(options.work == Work::normals, "fused/only_normals.glsl");
     include(options.work == Work::watch, "fused/watch.frag");
     include(options.work == Work::touched, "fused/touched.frag");
@@ -313,7 +356,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
         out.vertex = reachesByControl(group, options) ? "births/reach.vert" : "passes/fullscreen.vert",
         out.fragment = root;
     out.defines = defines(plan, group, options);
-    out.generated = {{root, rootText(group, options)},
+    out.generated = {{root, rootText(plan, group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},
                      {"generated/muscles.glsl", group.kernel.muscles},
                      {"generated/waves.glsl", group.kernel.waves},

@@ -28,8 +28,8 @@ std::vector<std::string> defines(const GroupPlan& group) {
         out.push_back(concat("STAGES ", solver.tableau.stages));
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.collide, "COLLIDE");
-    out.insert(out.end(), {gpu::constant("PINS", needs.pins), gpu::constant("RELEASE", needs.release)});
-    define(needs.records, "RECORDS");
+    out.insert(out.end(), {gpu::constant("PINS", needs.pins), gpu::constant("RELEASE", needs.release),
+                           gpu::constant("ANCHORS_MOVE", needs.records)});
     return out;
 }
 

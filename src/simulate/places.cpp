@@ -9,7 +9,8 @@ namespace shoal {
 constexpr double freeSince = -std::numeric_limits<double>::infinity();
 
 // A stack hands out the first places first.
-Places::Places(Allocator allocator, size_t count) : allocator_(allocator), ends_(count, freeSince), free_(count) {
+Places::Places(Allocator allocator, size_t count)
+    : allocator_(allocator), ends_(count, freeSince), free_(count) {
     std::iota(free_.begin(), free_.end(), uint32_t(0));
     if (allocator == Allocator::stack) std::reverse(free_.begin(), free_.end());
 }

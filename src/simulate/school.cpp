@@ -60,9 +60,7 @@ void BufferSchool::step(const Frame& frame, const std::vector<GroupBuffers>& sta
 }
 
 TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
-    : SchoolPasses(
-          context, plan, tables, Form::textures, mostInTextures(context.info()),
-          rowBits(size_t(std::max({plan.school.bodyCount, plan.school.entries, plan.school.keys + 1})))),
+    : SchoolPasses(context, plan, tables, Form::textures, mostInTextures(context.info())),
       sort_(context, NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_,
             NetworkSort::Ties::byIndex) {
     starts_ = Program(context, optionsOf("sort/starts", "school starts", nullptr));

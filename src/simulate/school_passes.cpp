@@ -34,18 +34,18 @@ static const Plan& checked(const Plan& plan, size_t most) {
 }
 
 SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form,
-                           size_t most, int rowBits)
+                           size_t most)
     : context_(&context),
       plan_(&checked(plan, most)),
       school_(&plan.school),
       table_(context.shaders() + "/school/arrays.txt", form),
-      rowBits_(rowBits),
+      rowBits_(rowBits(size_t(std::max({school_->bodyCount, school_->entries, school_->keys + 1})))),
       arrays_(context, table_,
               {{{"body", size_t(school_->bodyCount)},
                 {"entry", size_t(school_->entries)},
                 {"key", size_t(school_->keys)}},
                0,
-               rowBits},
+               rowBits_},
               "school"),
       tables_(&tables) {
     gpu::ProgramOptions keys = optionsOf("school/keys", "school keys", nullptr);

@@ -34,10 +34,9 @@ class SchoolPasses {
   protected:
     using Form = gpu::ArrayTable::Form;
 
-    // Borrows the plan and the tables. `rowBits`: of textures. Error, located at the first school: more than
-    // `most` molecules or entries; out of memory.
-    SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form, size_t most,
-                 int rowBits = 0);
+    // Borrows the plan and the tables. Error, located at the first school: more than `most` molecules or
+    // entries; out of memory.
+    SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form, size_t most);
 
     // Steers all molecules for this frame.
     void run(const Frame& frame, gpu::PassTimers& timers);
@@ -55,7 +54,7 @@ class SchoolPasses {
     const Plan* plan_;
     const SchoolPlan* school_;
     gpu::ArrayTable table_;
-    int rowBits_;
+    int rowBits_;  // of textures
     gpu::Arrays arrays_;
 
   private:

@@ -3,8 +3,21 @@
 #define STATE_ELEMENTS 4
 #define STATE_WIDTH 1024
 #define VERTICES 2
-#define PINS false
+#define LANE_A_VERTEX false
+#define MAY_BE_CUT false
+#define CARRIES false
+#define TOGETHER false
+#define ISSUED_AHEAD false
+#define RESTS false
+#define MAY_BE_HELD false
+#define RIGID_IMPACT false
+#define COLLIDE true
+#define ANCHORS_MOVE true
 #define RELEASE false
+#define PINS false
+#define SPRINGS true
+#define SAMPLE_SUBSTEPS true
+#define SAMPLE_MOLECULE false
 #define VALUES sampler2DArray
 int firstElement(int molecule, int elements)
 {
@@ -56,6 +69,7 @@ vec2 stagePhi;
 vec2 flightBend;
 int slips;
 int restarts;
+const bool isSoftware = false;
 int inRegister(int value) { return value; }
 float inRegister(float value) { return value; }
 vec2 inRegister(vec2 value) { return value; }
@@ -84,7 +98,7 @@ void loadUniforms()
     releaseForce = inRegister(givenNumbers[6].x);
     releaseChance = inRegister(givenNumbers[6].y);
 }
-vec3 carried(vec3 before, vec3 now) { return now; }
+vec3 carried(vec3 before, vec3 now) { return !CARRIES || substeps > 0 ? now : before; }
 vec3 x[VERTICES];
 vec3 v[VERTICES];
 vec3 w[VERTICES];
@@ -101,6 +115,7 @@ float age = 0.0;
 float span = 0.0;
 bool touched = false;
 const bool isMortal = false;
+const bool hasHistory = false;
 bool taken()
 {
     return !isMortal || span > 0.0;
@@ -172,6 +187,26 @@ void springForces(float time)
     force[0] += f;
     force[1] -= f;
 }
+void surfaceNormals()
+{
+}
+const float HELD_BY_CONTACT = -1.0;
+const float AWAKE = 0.0;
+const float RESTING = 1.0;
+const float COME_TO_REST = 2.0;
+bool isResting(float state)
+{
+    return state > AWAKE;
+}
+const bool heldByContact = false;
+#define LOAD(i) vec3(0.0)
+void loadLoads(int molecule)
+{
+}
+float moverOf(int molecule)
+{
+    return AWAKE;
+}
 uint hashSeed(uint seed, uint counter)
 {
     uint state = (seed ^ (counter * 2654435769u)) * 747796405u + 2891336453u;
@@ -232,18 +267,20 @@ vec3 fallAt(vec3 anchor, vec3 position)
 {
     return gravity;
 }
+const bool isDirectional = false;
+const bool hasFields = false;
 vec3 fieldAt(vec3 anchor, vec3 position, float time)
 {
     return vec3(0.0);
 }
 vec3 fluidOf(vec3 u)
 {
-    u = vec3(0.0);
-    return withWind(u);
+    return withWind(hasFields ? u : vec3(0.0));
 }
 vec3 draggedBy(vec3 velocity, vec3 u, vec3 a, vec3 n, vec2 decays, vec2 phis)
 {
     u = fluidOf(u);
+    if (isDirectional) return directionalDragAndGravity(velocity, u, a, n, decays, phis);
     return dragAndGravity(velocity, u, a, decays.y, phis.y);
 }
 vec3 dragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
@@ -254,10 +291,10 @@ vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     vec3 slip = fluidOf(u) - velocity;
     a += slip * dragRate.y;
+    if (isDirectional) a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
     return a;
 }
 #define PULLED(i) gravity
-#define LOAD(i) vec3(0.0)
 #define FALL(i) (PULLED(i) + LOAD(i))
 bool isHeld(bool pinned)
 {
@@ -271,26 +308,46 @@ void letGo(int step)
 }
 void sampleFrame()
 {
+    if (!hasFields || SAMPLE_SUBSTEPS) return;
+    float middle = 0.5 * frameDuration;
+    if (hasHistory) middle += 0.5 * substep;
+    probe[0] = x[0] + v[0] * middle;
+    probe[1] = x[1] + v[1] * middle;
+    if (SAMPLE_MOLECULE) {
+        vec3 u = fieldAt(anchor, meanProbe(), middle);
+        fluid[0] = u;
+        fluid[1] = u;
+        return;
+    }
+    fluid[0] = fieldAt(anchor, probe[0], middle);
+    fluid[1] = fieldAt(anchor, probe[1], middle);
 }
 void sampleSubstep(float time)
 {
+    if (!hasFields || !SAMPLE_SUBSTEPS) return;
+    fluid[0] = fieldAt(anchor, probe[0], time);
+    fluid[1] = fieldAt(anchor, probe[1], time);
 }
 void sampleHere(float time)
 {
     probe[0] = x[0];
     probe[1] = x[1];
+    if (isDirectional) surfaceNormals();
     sampleSubstep(time);
 }
 void springForcesNow(int step, float time)
 {
-    w[0] = v[0];
-    w[1] = v[1];
-    springForces(time);
+    if (SPRINGS) {
+        w[0] = v[0];
+        w[1] = v[1];
+        springForces(time);
+    }
     letGo(step);
 }
 void kickWhole(int step, float time)
 {
     springForcesNow(step, time);
+    if (!SPRINGS) return;
     if (!isHeld(pinned[0])) v[0] += springKick(force[0], inverseMass[0], substep);
     if (!isHeld(pinned[1])) v[1] += springKick(force[1], inverseMass[1], substep);
 }
@@ -324,8 +381,10 @@ vec3 flight(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     vec3 slope = dragAcceleration(velocity, u, a, n);
     vec3 bend = slope * flightBend.y;
+    if (isDirectional) bend += n * (dot(slope, n) * (flightBend.x - flightBend.y));
     return velocity * substep + bend;
 }
+const bool keepsSurface = false;
 struct Contact {
     vec3 position;
     vec3 velocity;
@@ -407,8 +466,10 @@ vec3 heldBy(vec3 n, float friction, vec3 acceleration)
     bool holds = friction >= 0.0f && pressure >= 0.0f && dot(along, along) <= most * most;
     return holds ? vec3(0.0f) : acceleration;
 }
+const bool isConstraint = false;
 Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, float restitution, float friction, Drift drift)
 {
+    if (isConstraint) return constrain(inside, x, v, distance, n, friction, drift.step);
     return respond(inside, x, v, distance, n, restitution, friction, drift);
 }
 float bilinear(float h00, float h10, float h01, float h11, vec2 f)
@@ -524,6 +585,8 @@ const float contactRadius = 0.0;
 void takeRadius(float scale, float lived)
 {
 }
+vec4 struckLast;
+vec3 struckVelocity;
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 vec4 planeSurface(vec3 origin, vec3 x, vec3 normal)
 {
@@ -603,6 +666,8 @@ vec4 surfaceAt(vec3 anchor, vec3 position)
 }
 Contact answerTo(vec4 surface, vec3 position, vec3 velocity, Drift drift)
 {
+    struckLast = vec4(surface.xyz, surface.w < 0.0 ? colliderParameters[0].y : -1.0);
+    struckVelocity = vec3(0.0);
     return answer(false, position, velocity, surface.w, surface.xyz, colliderParameters[0].x, colliderParameters[0].y, drift);
 }
 Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, Drift drift)
@@ -618,8 +683,47 @@ vec4 footing(vec3 anchor, vec3 position, float time)
     vec4 surface = surfaceAt(anchor, position);
     return vec4(surface.xyz, abs(surface.w) < restingSlack ? colliderParameters[0].y : -1.0);
 }
+const bool areTabled = false;
+const int turns = 0;
+const int mostTurns = 0;
+bool nearKnown = false;
+vec3 nearPlace;
+float nearReach;
+void gatherNear(vec3 anchor, vec3 position, float reach)
+{
+}
+const bool collidersMove = false;
+const bool areBounded = false;
+float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
+{
+    return -1.0;
+}
+Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3 gravity, Drift drift, float time)
+{
+    return collideAll(anchor, position, velocity, drift);
+}
+vec3 dx[VERTICES];
+vec3 dv[VERTICES];
+const float noHistory = 0.0;
+#define DRIFT(acceleration, beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z, acceleration)
+void forgetHistory()
+{
+}
+vec3 wayBeyond(vec3 moved, vec3 gained, vec3 ended)
+{
+    return vec3(0.0);
+}
+bool changeHistory(vec3 shift, vec3 change, inout vec3 displacement, inout vec3 gained, vec3 ended)
+{
+    return false;
+}
 vec3 acceleration[VERTICES];
 #define SPRUNG(i) acceleration[i]
+const bool owesKick = SPRINGS;
+#define OWED(i) (SPRINGS ? acceleration[i] * (0.5 * substep) : vec3(0.0))
+void findFooting(float time)
+{
+}
 void beginSolver()
 {
     acceleration[0] = vec3(0.0);
@@ -627,10 +731,13 @@ void beginSolver()
 }
 void kickBySprings(int step, float kickTime)
 {
-    w[0] = v[0] + acceleration[0] * kickTime;
-    w[1] = v[1] + acceleration[1] * kickTime;
-    springForces(float(step) * substep);
+    if (SPRINGS) {
+        w[0] = v[0] + acceleration[0] * kickTime;
+        w[1] = v[1] + acceleration[1] * kickTime;
+        springForces(float(step) * substep);
+    }
     letGo(step);
+    if (!SPRINGS) return;
     {
         acceleration[0] = isHeld(pinned[0]) ? vec3(0.0) : force[0] * inverseMass[0];
         v[0] += acceleration[0] * kickTime;
@@ -647,13 +754,14 @@ void advance(int step)
     if (step > 0) thrust(false);
     thrust(false);
     {
-        v[0] += acceleration[0] * halfStep;
+        if (SPRINGS) v[0] += acceleration[0] * halfStep;
         probe[0] = x[0] + v[0] * halfStep;
     }
     {
-        v[1] += acceleration[1] * halfStep;
+        if (SPRINGS) v[1] += acceleration[1] * halfStep;
         probe[1] = x[1] + v[1] * halfStep;
     }
+    if (isDirectional) surfaceNormals();
     sampleSubstep((float(step) + 0.5) * substep);
     driftAll();
 }
@@ -662,80 +770,139 @@ void finishSolver()
     kickBySprings(substeps, 0.5 * substep);
     thrust(false);
 }
-#define OWED(i) (acceleration[i] * (0.5 * substep))
-#define ANSWERED(i) withoutKick(touchVelocity[i], v[i], OWED(i))
 vec3 touchPosition[VERTICES];
 vec3 touchVelocity[VERTICES];
+vec3 driftedBy[VERTICES];
+vec3 beyondBy[VERTICES];
+vec3 startPlace[VERTICES];
+vec4 struck[VERTICES];
+vec3 struckSurface[VERTICES];
 float contactTime(int done)
 {
-    return 0.0;
+    return collidersMove ? float(done) * substep : 0.0;
 }
-#define PRESSED(i) (LOAD(i) + SPRUNG(i))
-#define BEYOND(i) vec3(0.0)
-#define DRIFT(acceleration, beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z, acceleration)
-#define DRIFT_OF(i) DRIFT(fallAt(anchor, touchPosition[i]) + PRESSED(i), BEYOND(i))
+#define PRESSED(i) (SPRINGS && !RIGID_IMPACT ? LOAD(i) + SPRUNG(i) : LOAD(i))
+#define DRIFT_OF(i) DRIFT(fallAt(anchor, touchPosition[i]) + PRESSED(i), beyondBy[i])
 void beginAnswers()
 {
     {
+        startPlace[0] = x[0];
+        struck[0] = vec4(0.0, 0.0, 0.0, -1.0);
         touchPosition[0] = x[0];
         touchVelocity[0] = v[0] + OWED(0);
+        driftedBy[0] = v[0];
+        beyondBy[0] = wayBeyond(dx[0], dv[0], v[0]);
     }
     {
+        startPlace[1] = x[1];
+        struck[1] = vec4(0.0, 0.0, 0.0, -1.0);
         touchPosition[1] = x[1];
         touchVelocity[1] = v[1] + OWED(1);
+        driftedBy[1] = v[1];
+        beyondBy[1] = wayBeyond(dx[1], dv[1], v[1]);
     }
 }
 void acceptAnswers(float time)
 {
+    bool impact = false;
     {
-        v[0] = ANSWERED(0);
+        if (hasHistory && (touchPosition[0] != x[0] || touchVelocity[0] != v[0]))
+            impact = changeHistory(touchPosition[0] - x[0], touchVelocity[0] - v[0], dx[0], dv[0], v[0]) || impact;
+        touched = touched || touchPosition[0] != x[0] || touchVelocity[0] != v[0] + OWED(0);
+        v[0] = owesKick ? withoutKick(touchVelocity[0], v[0], OWED(0)) : touchVelocity[0];
         x[0] = touchPosition[0];
     }
     {
-        v[1] = ANSWERED(1);
+        if (hasHistory && (touchPosition[1] != x[1] || touchVelocity[1] != v[1]))
+            impact = changeHistory(touchPosition[1] - x[1], touchVelocity[1] - v[1], dx[1], dv[1], v[1]) || impact;
+        touched = touched || touchPosition[1] != x[1] || touchVelocity[1] != v[1] + OWED(1);
+        v[1] = owesKick ? withoutKick(touchVelocity[1], v[1], OWED(1)) : touchVelocity[1];
         x[1] = touchPosition[1];
     }
+    if (impact) forgetHistory();
+    findFooting(time);
 }
-void beginContact()
+bool mayAnswer()
 {
-}
-bool mayTouch()
-{
-    return true;
-}
-bool findContacts(int done)
-{
-    bool found = false;
-    bool counts = true;
-    float least = 1e30;
-    touchPosition[0] = x[0];
-    touchPosition[1] = x[1];
-    if (!isHeld(pinned[0])) least = min(least, clearance(anchor, touchPosition[0], 0.0));
-    if (!isHeld(pinned[1])) least = min(least, clearance(anchor, touchPosition[1], 0.0));
-    found = counts && least < 0.0;
-    return found;
+    return taken() && !(MAY_BE_HELD && heldByContact);
 }
 void take(int k, Contact c)
 {
     touchPosition[k] = c.position;
     touchVelocity[k] = c.velocity;
+    struck[k] = struckLast;
+    struckSurface[k] = struckVelocity;
+}
+void answerAsBody()
+{
+}
+vec3 clearAround;
+float clearRadius;
+void beginContact()
+{
+    if (!areBounded) return;
+    clearAround = x[0];
+    clearRadius = 0.99 * clearance(anchor, clearAround, 0.0) - 1e-4;
+}
+bool mayTouch()
+{
+    if (!areBounded) return true;
+    float away = 0.0;
+    float fastest = 0.0;
+    {
+        vec3 apart = x[0] - clearAround;
+        away = max(away, dot(apart, apart));
+        fastest = max(fastest, dot(v[0], v[0]));
+    }
+    {
+        vec3 apart = x[1] - clearAround;
+        away = max(away, dot(apart, apart));
+        fastest = max(fastest, dot(v[1], v[1]));
+    }
+    return !(sqrt(away) + sqrt(fastest) * substep < clearRadius);
+}
+vec4 seen[VERTICES];
+bool findContacts(int done)
+{
+    float least = 1e30;
+    touchPosition[0] = x[0];
+    touchPosition[1] = x[1];
+    {
+        if (keepsSurface) seen[0] = surfaceAt(anchor, touchPosition[0]);
+        if (!isHeld(pinned[0])) least = min(least, keepsSurface ? seen[0].w : clearance(anchor, touchPosition[0], 0.0));
+    }
+    {
+        if (keepsSurface) seen[1] = surfaceAt(anchor, touchPosition[1]);
+        if (!isHeld(pinned[1])) least = min(least, keepsSurface ? seen[1].w : clearance(anchor, touchPosition[1], 0.0));
+    }
+    return mayAnswer() && least < 0.0;
 }
 void resolveContacts(int done)
 {
     beginAnswers();
     {
         if (!isHeld(pinned[0])) {
-            vec4 surface = surfaceAt(anchor, touchPosition[0]);
+            vec4 surface = seen[0];
+            if (!keepsSurface) surface = surfaceAt(anchor, touchPosition[0]);
             take(0, answerTo(surface, touchPosition[0], touchVelocity[0], DRIFT_OF(0)));
         }
     }
     {
         if (!isHeld(pinned[1])) {
-            vec4 surface = surfaceAt(anchor, touchPosition[1]);
+            vec4 surface = seen[1];
+            if (!keepsSurface) surface = surfaceAt(anchor, touchPosition[1]);
             take(1, answerTo(surface, touchPosition[1], touchVelocity[1], DRIFT_OF(1)));
         }
     }
+    answerAsBody();
     acceptAnswers(contactTime(done));
+}
+int ownMolecule()
+{
+    return int(gl_FragCoord.y) * STATE_WIDTH + int(gl_FragCoord.x);
+}
+void storeRecord(int molecule)
+{
 }
 void loadState(int molecule)
 {
@@ -768,10 +935,6 @@ void storeState(int molecule)
         target4 = recordNow();
     }
 }
-int ownMolecule()
-{
-    return int(gl_FragCoord.y) * STATE_WIDTH + int(gl_FragCoord.x);
-}
 int vertexOf(int i)
 {
     return i;
@@ -793,20 +956,63 @@ void keepState(int molecule)
     loadState(molecule);
 }
 #define SOME_LANE(value) value
-void run()
+void runAlone()
 {
     int done = 0;
-    beginContact();
     while (done < substeps) {
         advance(done);
         ++done;
         if (mayTouch() && findContacts(done)) resolveContacts(done);
     }
 }
+void runTogether()
+{
+    int done = 0;
+    do {
+        bool found;
+        do {
+            bool near = true;
+            if (areBounded) {
+                do {
+                    advance(done);
+                    ++done;
+                    near = mayTouch();
+                } while (!SOME_LANE(near) && done < substeps);
+            } else {
+                advance(done);
+                ++done;
+            }
+            found = near && findContacts(done);
+        } while (!SOME_LANE(found) && done < substeps);
+        if (found) resolveContacts(done);
+    } while (done < substeps);
+}
+void run()
+{
+    beginContact();
+    if (TOGETHER) {
+        runTogether();
+    } else {
+        runAlone();
+    }
+}
 void loadParameters()
 {
     loadUniforms();
     loadColliderParameters();
+}
+void writeNormals(int molecule)
+{
+}
+void watch()
+{
+}
+bool comesTooLate()
+{
+    return false;
+}
+void growOlder(int molecule)
+{
 }
 vec3 latticeNear(vec3 p)
 {
@@ -817,6 +1023,10 @@ vec3 anchorShift(vec3 p)
     if (abs(p.x) <= 1.0f && abs(p.y) <= 1.0f && abs(p.z) <= 1.0f) return vec3(0.0f);
     return latticeNear(p);
 }
+vec3 cutShort()
+{
+    return vec3(uintBitsToFloat(0x7f800000u));
+}
 bool followAnchor()
 {
     vec3 shift = anchorShift(firstPlace());
@@ -825,19 +1035,58 @@ bool followAnchor()
     anchor += shift;
     return shift != vec3(0.0);
 }
+const int turnsLeft = LANE_A_VERTEX ? 64 : 0;
+bool loopsEndEarly()
+{
+    bool early = areTabled && turns > mostTurns;
+    if (!isSoftware) return early;
+    int taken = 0;
+    do {
+        ++taken;
+    } while (taken <= substeps + turnsLeft);
+    return early || taken <= substeps + turnsLeft;
+}
+uniform bool probes;
+vec3 gained[VERTICES];
 void main()
 {
+    if (ISSUED_AHEAD && comesTooLate()) return;
     int molecule = ownMolecule();
     loadState(molecule);
     loadParameters();
     loadRecord(molecule);
+    loadLoads(molecule);
+    float mover = RESTS ? moverOf(molecule) : AWAKE;
+    bool rests = RESTS && isResting(mover);
+    bool probed = mover == COME_TO_REST || (RESTS && probes && rests);
+    if (rests && !probed && !LANE_A_VERTEX) substeps = 0;
+    bool isCutShort = MAY_BE_CUT && x[0] == cutShort();
+    if (isCutShort && !LANE_A_VERTEX) substeps = 0;
     bool wasReleased = released;
-    bool moved = false;
-    moved = followAnchor();
+    bool moved = ANCHORS_MOVE && followAnchor();
     takeRadius(scale, min((age + frameDuration) / max(span, 1e-9), 1.0));
     beginSolver();
     sampleFrame();
     run();
     finishSolver();
+    if (MAY_BE_CUT) isCutShort = isCutShort || loopsEndEarly();
+    if (rests) {
+        gained[0] = probed ? v[0] : vec3(0.0);
+        gained[1] = probed ? v[1] : vec3(0.0);
+        keepState(molecule);
+        v[0] = gained[0];
+        v[1] = gained[1];
+        moved = false;
+    }
+    if (isCutShort) x[0] = cutShort();
+    bool wasTaken = taken();
+    growOlder(molecule);
+    if (!wasTaken) {
+        keepState(molecule);
+        moved = false;
+    }
     storeState(molecule);
+    if (wasTaken) watch();
+    if (isFirstLane() && (moved || released != wasReleased)) storeRecord(molecule);
+    writeNormals(molecule);
 }

@@ -98,12 +98,12 @@ TEST_CASE("colliders: what stands still alone keeps its text, what moves changes
     std::vector<glm::vec4> samples;
     std::vector<Collider> one(1);
     const GeneratedColliders plain = generateColliders(one, samples);
-    CHECK(plain.source.find("JOINT_CONTACT") == std::string::npos);
+    CHECK(plain.source.find("step/joint_contact.glsl") == std::string::npos);
     CHECK(plain.moving.empty());
     one[0].path = there(false);
     const GeneratedColliders moving = generateColliders(one, samples);
     CHECK(moving.source.find("const bool collidersMove = true") != std::string::npos);
-    CHECK(moving.source.find("#define SWEPT") == std::string::npos);  // a plane
+    CHECK(moving.source.find("areSwept = false") != std::string::npos);  // a plane
     one[0].path->keyframes[1].pose.position.x = 7;
     CHECK(generateColliders(one, samples).source == moving.source);
 }

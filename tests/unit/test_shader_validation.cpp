@@ -19,7 +19,7 @@ namespace {
 
 // A pass that is told which of its constants hold: those that `set` names.
 void addPass(Validator& validator, const std::string& file, Defines set) {
-    for (const char* name : {"PINS", "RELEASE"}) {
+    for (const char* name : {"PINS", "RELEASE", "ANCHORS_MOVE"}) {
         const bool holds = std::erase(set, name) > 0;
         set.push_back(gpu::constant(name, holds));
     }
@@ -33,7 +33,8 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     Validator validator;
     validator.generated = generate(fieldsToValidate(), collidersToValidate());
     addPass(validator, "fullscreen.vert", {});
-    for (const Defines& set : combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "RECORDS"}))
+    for (const Defines& set :
+         combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "ANCHORS_MOVE"}))
         addPass(validator, "advect.frag", set);
     for (const Defines& set : combinations({"LEAPFROG", "FIELDS", "FORCES"})) {
         addPass(validator, "advect.frag", set);
@@ -46,7 +47,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         addPass(validator, "collide.frag", set);
         addPass(validator, "collide.frag", forced);
     }
-    for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
+    for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE"}}) {
         addPass(validator, "collide.frag", pins);
         for (const Defines& set :
              std::vector<Defines>{{"ACCELERATION"}, {"LEAPFROG", "ACCELERATION"}, {"STAGES 4"}}) {
