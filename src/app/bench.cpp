@@ -23,19 +23,20 @@ namespace {
 
 class BulletRunner final : public BenchRunner {
   public:
-    BulletRunner(const BenchCase& one, const Molecule& molecule) : one_(one), molecule_(molecule) {
+    BulletRunner(const BenchCase& benchCase, const Molecule& molecule)
+        : benchCase_(benchCase), molecule_(molecule) {
         restart();
     }
     void restart() override {
-        bullet_ = makeBullet(molecule_, one_.count, one_.subject == Subject::bulletMerged);
+        bullet_ = makeBullet(molecule_, benchCase_.count, benchCase_.subject == Subject::bulletMerged);
     }
     void frame() override {
-        for (int i = 0; i < one_.substeps; ++i)
-            bullet_->frame(1.0 / 60 / one_.substeps);
+        for (int i = 0; i < benchCase_.substeps; ++i)
+            bullet_->frame(1.0 / 60 / benchCase_.substeps);
     }
 
   private:
-    BenchCase one_;
+    BenchCase benchCase_;
     const Molecule& molecule_;
     std::unique_ptr<BulletBaseline> bullet_;
 };
@@ -55,7 +56,7 @@ Wanted wantedOf(const Options& options, bool some = true) {
     const std::vector<BenchCase> all = benchCases(options.quick);
     std::vector<BenchCase> chosen;
     std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
-                 [&](const BenchCase& one) { return named(one.name()); });
+                 [&](const BenchCase& benchCase) { return named(benchCase.name()); });
     Wanted out{byGroup(chosen), named(errors), named(starts), named(passes)};
     if (!some || !chosen.empty() || out.errors || out.starts || out.passes) {
         if (!options.plot.empty()) checkPlot(options.plot, chosen);
@@ -98,8 +99,8 @@ void runPart(const BenchDevice& device, const std::string& name, BenchReport& re
     } catch (const Error& error) {
         if (!device.goesOn) throw;
         BenchResult failed;
-        failed.one.group = name;
-        failed.one.label = "all of it";
+        failed.benchCase.group = name;
+        failed.benchCase.label = "all of it";
         failed.failed = error.what();
         report.results.push_back(std::move(failed));
     }
@@ -188,8 +189,8 @@ BenchReport measureSpeeds(const Options& options, BenchSession& session) {
         std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has " << info.version
                   << ": its cases are left out\n";
     if (bulletAvailable())
-        session.device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
-            return std::make_unique<BulletRunner>(one, molecule);
+        session.device.makeBullet = [](const BenchCase& benchCase, const Molecule& molecule) {
+            return std::make_unique<BulletRunner>(benchCase, molecule);
         };
     measureAll(wanted, molecules, session.device, session.schedule, report);
     return report;

@@ -8,7 +8,7 @@ namespace {
 
 const ContactTimes* find(const CollideReport& report, int quads) {
     for (const ContactTimes& times : report.contact)
-        if (times.one.density == "moderate" && times.one.quads == quads && times.leftOut.empty())
+        if (times.benchCase.density == "moderate" && times.benchCase.quads == quads && times.leftOut.empty())
             return &times;
     return nullptr;
 }
@@ -28,19 +28,19 @@ std::vector<Target> targets(const CollideReport& report) {
 std::string contactText(const std::vector<ContactTimes>& all) {
     std::string out, density;
     for (const ContactTimes& t : all) {
-        if (t.one.density != density) {
-            density = t.one.density;
+        if (t.benchCase.density != density) {
+            density = t.benchCase.density;
             out += formatted("\n%s: %.4g m^3 a quad, spheres of %g m at its corners; ms, shortest (median)\n",
-                             density.c_str(), t.one.room, ContactCase::radius);
+                             density.c_str(), t.benchCase.room, ContactCase::radius);
             out +=
                 "    quads  contacts            grid          search        response         contact"
                 "       baseline  ratio  ns/quad  ns/contact     fused    device\n";
         }
         if (!t.leftOut.empty()) {
-            out += formatted("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
+            out += formatted("%9s  left out: %s\n", grouped(t.benchCase.quads).c_str(), t.leftOut.c_str());
             continue;
         }
-        out += formatted("%9s%10s", grouped(t.one.quads).c_str(), grouped(int(t.contacts)).c_str());
+        out += formatted("%9s%10s", grouped(t.benchCase.quads).c_str(), grouped(int(t.contacts)).c_str());
         for (const measure::Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.baseline})
             out += formatted("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
         out += formatted("%7.2f%9.0f%12.0f%10.2f%10s\n", t.ratio(), t.perQuad() * 1e9,
@@ -90,8 +90,8 @@ JsonValue asJson(const measure::Spread& spread) {
 }
 
 JsonValue asJson(const ContactTimes& t) {
-    JsonValue out = object(key("density", t.one.density), key("quads", t.one.quads),
-                           key("cubicMetresPerQuad", t.one.room));
+    JsonValue out = object(key("density", t.benchCase.density), key("quads", t.benchCase.quads),
+                           key("cubicMetresPerQuad", t.benchCase.room));
     if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
     appendDeviceTime(out, t.device);
     return append(out, key("spheres", t.spheres), key("contacts", t.contacts),

@@ -7,19 +7,21 @@ using namespace bench;
 namespace {
 
 JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all) {
-    const BenchCase& one = result.one;
-    JsonValue out = object(key("group", one.group), key("case", one.label), key("subject", name(one.subject)),
-                           key("molecule", one.molecule), key("count", one.count));
+    const BenchCase& benchCase = result.benchCase;
+    JsonValue out = object(key("group", benchCase.group), key("case", benchCase.label),
+                           key("subject", name(benchCase.subject)), key("molecule", benchCase.molecule),
+                           key("count", benchCase.count));
     if (!result.leftOut.empty()) return append(out, key("leftOut", result.leftOut));
     if (!result.failed.empty()) return append(out, key("failed", result.failed));
-    if (!isCopy(one.subject))
-        append(out, key("solver", shoal::name(one.solver)), key("substeps", one.substeps),
-               key("wind", name(one.wind)));
-    if (isPath(one.subject))
-        append(out, key("fieldSampling", shoal::name(one.sampling)), key("lanes", shoal::name(result.lanes)),
-               key("inPlace", one.inPlace), key("drawn", one.drawn));
+    if (!isCopy(benchCase.subject))
+        append(out, key("solver", shoal::name(benchCase.solver)), key("substeps", benchCase.substeps),
+               key("wind", name(benchCase.wind)));
+    if (isPath(benchCase.subject))
+        append(out, key("fieldSampling", shoal::name(benchCase.sampling)),
+               key("lanes", shoal::name(result.lanes)), key("inPlace", benchCase.inPlace),
+               key("drawn", benchCase.drawn));
     std::optional<double> each, moved;
-    if (one.subject != Subject::multiplyAdd) each = result.perMolecule() * 1e9;
+    if (benchCase.subject != Subject::multiplyAdd) each = result.perMolecule() * 1e9;
     if (result.movedBytes > 0) moved = double(result.movedBytes);
     const Ratios ratios = ratiosOf(result, all);
     append(out, key("samples", result.frame.samples), key("framesPerSample", result.framesPerSample),
@@ -27,7 +29,7 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
     appendDeviceTime(out, result.device);
     return append(out, key("nanosecondsPerMolecule", each), key("overAvx512", ratios.avx512),
                   key("overAvx2", ratios.avx2), key("fasterThanPingPong", ratios.pingPong),
-                  key("stateBytesPerMolecule", double(result.stateBytes) / one.count),
+                  key("stateBytesPerMolecule", double(result.stateBytes) / benchCase.count),
                   key("movedBytesPerFrame", moved), key("bytesPerSecond", ratios.bandwidth),
                   key("shareOfCopy", ratios.shareOfCopy), key("operationsPerSecond", ratios.arithmetic),
                   key("shareOfPeak", ratios.shareOfPeak), key("busStateBytesPerFrame", result.busStateBytes));

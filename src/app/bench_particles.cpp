@@ -15,8 +15,9 @@ namespace {
 
 std::vector<ParticleCase> particleCasesOf(const Options& options) {
     std::vector<ParticleCase> all = particleCases(options.quick), some;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
-                 [&](const ParticleCase& one) { return one.name().find(options.only) != std::string::npos; });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const ParticleCase& particleCase) {
+        return particleCase.name().find(options.only) != std::string::npos;
+    });
     if (!some.empty()) return some;
     std::vector<std::string> names;
     for (const std::vector<ParticleCase>& group : byGroup(all))

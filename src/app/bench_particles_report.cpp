@@ -16,7 +16,7 @@ using Times = std::vector<ParticleTimes>;
 template <typename Which>
 const ParticleTimes* find(const Times& times, Which which) {
     const auto found = std::find_if(times.begin(), times.end(), [&](const ParticleTimes& t) {
-        return t.leftOut.empty() && which(t.one);
+        return t.leftOut.empty() && which(t.benchCase);
     });
     return found == times.end() ? nullptr : &*found;
 }
@@ -24,29 +24,30 @@ const ParticleTimes* find(const Times& times, Which which) {
 int largestSide(const Times& times) {
     int out = 0;
     for (const ParticleTimes& t : times)
-        out = std::max(out, t.one.side);
+        out = std::max(out, t.benchCase.side);
     return out;
 }
 
 void addShares(const Times& times, std::vector<Target>& out) {
     for (const ParticleTimes& quads : times) {
-        if (!quads.one.quads || !quads.leftOut.empty()) continue;
-        const ParticleTimes* points =
-            find(times, [&](const ParticleCase& one) { return one.group == quads.one.group && !one.quads; });
+        if (!quads.benchCase.quads || !quads.leftOut.empty()) continue;
+        const ParticleTimes* points = find(times, [&](const ParticleCase& particleCase) {
+            return particleCase.group == quads.benchCase.group && !particleCase.quads;
+        });
         if (points)
-            out.push_back(
-                {"a point over its " + quads.one.group, 1.5, false, points->frame.min / quads.frame.min});
+            out.push_back({"a point over its " + quads.benchCase.group, 1.5, false,
+                           points->frame.min / quads.frame.min});
     }
 }
 
 void addBirths(const Times& times, std::vector<Target>& out) {
     for (const ParticleTimes& t : times) {
-        if (!t.one.allocator || !t.leftOut.empty()) continue;
-        if (*t.one.allocator == Allocator::heap)
-            out.push_back({"heap: places up to the last taken, over the living; " + t.one.group, 1.05, false,
-                           t.packing});
-        if (*t.one.allocator == Allocator::gpu)
-            out.push_back({"gpu: bytes over the bus a frame; " + t.one.group, 0, false, t.busBytes});
+        if (!t.benchCase.allocator || !t.leftOut.empty()) continue;
+        if (*t.benchCase.allocator == Allocator::heap)
+            out.push_back({"heap: places up to the last taken, over the living; " + t.benchCase.group, 1.05,
+                           false, t.packing});
+        if (*t.benchCase.allocator == Allocator::gpu)
+            out.push_back({"gpu: bytes over the bus a frame; " + t.benchCase.group, 0, false, t.busBytes});
     }
 }
 
@@ -55,14 +56,15 @@ std::vector<Target> targets(const ParticleReport& report) {
     std::vector<Target> out;
     addShares(report.times, out);
     const int side = largestSide(report.times);
-    const auto step = find(report.times, [&](const ParticleCase& one) {
-        return one.heights && one.side == side && one.what == What::step && !one.quads &&
-               one.frameRate == 60 && one.solver == SolverKind::leapfrog && !one.inPlace;
+    const auto step = find(report.times, [&](const ParticleCase& particleCase) {
+        return particleCase.heights && particleCase.side == side && particleCase.what == What::step &&
+               !particleCase.quads && particleCase.frameRate == 60 &&
+               particleCase.solver == SolverKind::leapfrog && !particleCase.inPlace;
     });
     const std::string what = concat("steps a second of ", grouped(side * side), " over a height field");
     out.push_back({what, 100, true, step ? std::optional(1 / step->frame.min) : std::nullopt});
-    const auto copy = find(report.times, [&](const ParticleCase& one) {
-        return one.heights && one.side == side && one.what == What::copy;
+    const auto copy = find(report.times, [&](const ParticleCase& particleCase) {
+        return particleCase.heights && particleCase.side == side && particleCase.what == What::copy;
     });
     if (!report.machine.context.software && step && copy)
         out.push_back({"a step over a height field, over a copy of the state", 2, false,
@@ -81,14 +83,15 @@ struct BirthCost {
 std::vector<BirthCost> birthCosts(const Times& times) {
     std::vector<BirthCost> out;
     for (const ParticleTimes& many : times) {
-        if (many.one.turnover < 0.1 || !many.leftOut.empty()) continue;
-        const ParticleTimes* few = find(times, [&](const ParticleCase& one) {
-            return one.side == many.one.side && one.label == many.one.label && one.turnover > 0 &&
-                   one.turnover < many.one.turnover;
+        if (many.benchCase.turnover < 0.1 || !many.leftOut.empty()) continue;
+        const ParticleTimes* few = find(times, [&](const ParticleCase& particleCase) {
+            return particleCase.side == many.benchCase.side && particleCase.label == many.benchCase.label &&
+                   particleCase.turnover > 0 && particleCase.turnover < many.benchCase.turnover;
         });
         if (!few) continue;
-        const double more = (many.one.turnover - few->one.turnover) * many.one.count();
-        out.push_back({many.one.label, many.one.side, (many.frame.min - few->frame.min) * 1e9 / more});
+        const double more = (many.benchCase.turnover - few->benchCase.turnover) * many.benchCase.count();
+        out.push_back(
+            {many.benchCase.label, many.benchCase.side, (many.frame.min - few->frame.min) * 1e9 / more});
     }
     return out;
 }
@@ -96,14 +99,14 @@ std::vector<BirthCost> birthCosts(const Times& times) {
 std::string timesText(const Times& all) {
     std::string out, group;
     for (const ParticleTimes& t : all) {
-        if (t.one.group != group) {
-            group = t.one.group;
+        if (t.benchCase.group != group) {
+            group = t.benchCase.group;
             out += formatted(
                 "\n%s; ms a frame, shortest (median), and the device's own\n  "
                 "%-40s%18s%10s%10s%9s%8s%12s%11s\n",
                 group.c_str(), "", "", "device", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
         }
-        out += formatted("  %-40s", t.one.label.c_str());
+        out += formatted("  %-40s", t.benchCase.label.c_str());
         if (!t.leftOut.empty()) {
             out += " left out: " + t.leftOut + "\n";
             continue;
@@ -113,7 +116,7 @@ std::string timesText(const Times& all) {
         out += t.movedBytes > 0 ? formatted("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min)
                                 : formatted("%8s", "");
         out += t.error ? formatted("%12.1e", *t.error) : formatted("%12s", "");
-        if (t.one.published > 0) out += formatted("%11g", t.one.published);
+        if (t.benchCase.published > 0) out += formatted("%11g", t.benchCase.published);
         out += "\n";
     }
     return out;
@@ -122,11 +125,11 @@ std::string timesText(const Times& all) {
 std::string birthsText(const Times& all) {
     std::string out;
     for (const ParticleTimes& t : all) {
-        if (!t.one.allocator || !t.leftOut.empty()) continue;
+        if (!t.benchCase.allocator || !t.leftOut.empty()) continue;
         if (out.empty())
             out = formatted("\n%-56s%10s%10s%9s%9s%12s\n", "births", "living", "born", "lost", "packing",
                             "bus bytes");
-        out += formatted("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.one.name().c_str(), t.live, t.born,
+        out += formatted("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.benchCase.name().c_str(), t.live, t.born,
                          t.lost, t.packing, t.busBytes);
     }
     if (!out.empty())
@@ -142,16 +145,17 @@ std::optional<double> unlessZero(double value) {
 }
 
 JsonValue asJson(const ParticleTimes& t) {
-    JsonValue out = object(key("group", t.one.group), key("case", t.one.label), key("side", t.one.side));
+    JsonValue out = object(key("group", t.benchCase.group), key("case", t.benchCase.label),
+                           key("side", t.benchCase.side));
     if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
-    append(out, key("solver", name(t.one.solver)), key("substeps", t.one.substeps),
+    append(out, key("solver", name(t.benchCase.solver)), key("substeps", t.benchCase.substeps),
            key("minSeconds", t.frame.min), key("medianSeconds", t.frame.median),
            key("samples", t.frame.samples), key("nanosecondsPerParticle", t.perParticle() * 1e9),
            key("movedBytesPerFrame", unlessZero(double(t.movedBytes))), key("busBytesPerFrame", t.busBytes),
-           key("positionError", t.error), key("publishedFramesPerSecond", unlessZero(t.one.published)));
+           key("positionError", t.error), key("publishedFramesPerSecond", unlessZero(t.benchCase.published)));
     appendDeviceTime(out, t.device);
-    if (t.one.allocator)
-        append(out, key("allocator", name(*t.one.allocator)), key("turnover", t.one.turnover),
+    if (t.benchCase.allocator)
+        append(out, key("allocator", name(*t.benchCase.allocator)), key("turnover", t.benchCase.turnover),
                key("living", t.live), key("bornPerFrame", t.born), key("lostPerFrame", t.lost),
                key("packing", t.packing));
     return out;

@@ -21,19 +21,19 @@ std::string orDash(const std::optional<double>& value) {
 constexpr int benchColumns[] = {-40, 10, 11, 11, 9, 9, 7, 8, 7, 7, 7, 6};
 
 std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all) {
-    const std::string label = "  " + result.one.label;
+    const std::string label = "  " + result.benchCase.label;
     if (!result.leftOut.empty())
         return formatted("%*s   left out: %s\n", benchColumns[0], label.c_str(), result.leftOut.c_str());
     if (!result.failed.empty())
         return formatted("%*s   failed: %s\n", benchColumns[0], label.c_str(), result.failed.c_str());
     const Ratios ratios = ratiosOf(result, all);
     const auto each = [&](size_t bytes) -> std::string {
-        return bytes > 0 ? formatted("%.0f", double(bytes) / result.one.count) : "-";
+        return bytes > 0 ? formatted("%.0f", double(bytes) / result.benchCase.count) : "-";
     };
     return tableRow(
         {label, formatted("%.3f", result.frame.min * 1e3), formatted("%.3f", result.frame.median * 1e3),
          deviceMilliseconds(result.device),
-         result.one.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
+         result.benchCase.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
          orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
          each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
          ratios.shareOfCopy ? formatted("%.0f%%", *ratios.shareOfCopy * 100) : "-"},
@@ -43,8 +43,8 @@ std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all
 void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) {
     std::string group;
     for (const BenchResult& result : results) {
-        if (result.one.group != group) {
-            group = result.one.group;
+        if (result.benchCase.group != group) {
+            group = result.benchCase.group;
             out << "\n"
                 << tableRow({group, "min ms", "median ms", "device ms", "ns each", "/AVX-512", "/AVX2",
                              "vs p-p", "state", "moved", "GB/s", "copy"},
@@ -82,14 +82,14 @@ void addErrors(std::ostringstream& out, const BenchReport& report) {
     out << "\nerror after 1 s, quads in the air, against double precision; ns each of so many quads\n";
     const char* row = "  %-46s%12s%10s%10s\n";
     out << formatted(row, "", "error", "16,384", "131,072");
-    for (const BenchError& one : report.errors) {
+    for (const BenchError& error : report.errors) {
         const auto speed = [&](int count) -> std::string {
-            const BenchResult* result = speedOf(one, count, report.results);
+            const BenchResult* result = speedOf(error, count, report.results);
             return result ? short3(result->perMolecule() * 1e9) : "-";
         };
-        const std::string what = concat(name(one.subject), ", ", shoal::name(one.solver), ", ",
-                                        name(one.wind), ", ", shoal::name(one.sampling));
-        out << formatted(row, what.c_str(), one.relative ? formatted("%.1e", *one.relative).c_str() : "-",
+        const std::string what = concat(name(error.subject), ", ", shoal::name(error.solver), ", ",
+                                        name(error.wind), ", ", shoal::name(error.sampling));
+        out << formatted(row, what.c_str(), error.relative ? formatted("%.1e", *error.relative).c_str() : "-",
                          speed(16384).c_str(), speed(131072).c_str());
     }
 }
@@ -100,10 +100,11 @@ void addStarts(std::ostringstream& out, const BenchReport& report) {
         "\nstart-up, ms: the context %.0f; plan, then simulation and first frame: unseen kernel, in the "
         "driver's cache, in ours\n",
         report.contextSeconds * 1e3);
-    for (const StartTime& one : report.starts)
-        out << formatted("  %-34s%10.0f%10.0f%10.0f%10.0f\n",
-                         concat(grouped(one.count), " ", one.molecule, ", ", shoal::name(one.solver)).c_str(),
-                         one.compile * 1e3, one.cold * 1e3, one.driver * 1e3, one.cached * 1e3);
+    for (const StartTime& start : report.starts)
+        out << formatted(
+            "  %-34s%10.0f%10.0f%10.0f%10.0f\n",
+            concat(grouped(start.count), " ", start.molecule, ", ", shoal::name(start.solver)).c_str(),
+            start.compile * 1e3, start.cold * 1e3, start.driver * 1e3, start.cached * 1e3);
 }
 
 std::string minAndMedian(double min, double median) {

@@ -20,10 +20,10 @@ std::string asText(const MeasuredOn& machine, const std::vector<SchoolTimes>& al
         "by the minimum\n\n");
     out += formatted("%-30s%20s%12s%12s%12s\n", "", "ms", "device ms", "steps/s", "us a fish");
     for (const SchoolTimes& times : all) {
-        out +=
-            formatted("%-30s", concat(times.one.count, times.one.schools ? " that school" : " that only swim",
-                                      times.one.path == Path::fragments ? ", in fragments" : "")
-                                   .c_str());
+        out += formatted("%-30s", concat(times.benchCase.count,
+                                         times.benchCase.schools ? " that school" : " that only swim",
+                                         times.benchCase.path == Path::fragments ? ", in fragments" : "")
+                                      .c_str());
         if (!times.leftOut.empty())
             out += concat("left out: ", times.leftOut, "\n");
         else
@@ -36,8 +36,8 @@ std::string asText(const MeasuredOn& machine, const std::vector<SchoolTimes>& al
 }
 
 JsonValue asJson(const SchoolTimes& times) {
-    JsonValue out = object(key("fish", times.one.count), key("schools", times.one.schools),
-                           key("path", name(times.one.path)));
+    JsonValue out = object(key("fish", times.benchCase.count), key("schools", times.benchCase.schools),
+                           key("path", name(times.benchCase.path)));
     if (!times.leftOut.empty()) return append(out, key("leftOut", times.leftOut));
     append(out, key("minSeconds", times.frame.min), key("medianSeconds", times.frame.median),
            key("samples", times.frame.samples));

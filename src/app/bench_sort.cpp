@@ -21,7 +21,7 @@ struct Report {
 // Ratios of the shortest times of one size, the largest of this run for which all sorts ran.
 std::vector<Target> targets(const Report& report) {
     const auto last = std::find_if(report.tables.rbegin(), report.tables.rend(),
-                                   [](const SortTable& one) { return one.side <= SortTable::mostOfAll; });
+                                   [](const SortTable& table) { return table.side <= SortTable::mostOfAll; });
     const SortTable& table = *last;
     const SortTime* radix = table.find(SortMethod::radix);
     const SortTime* bitonic = table.find(SortMethod::bitonic);
@@ -29,12 +29,13 @@ std::vector<Target> targets(const Report& report) {
         if (!radix || !slow) return {};
         return slow->seconds.min / radix->seconds.min;
     };
-    const std::string at = concat(" at ", table.side, " x ", table.side);
-    std::vector<Target> out = {{"radix, times as fast as bitonic" + at, 10, true, over(bitonic)},
-                               {"radix, times as fast as std::sort" + at, 1, true, over(&table.stdSort())}};
+    const std::string suffix = concat(" at ", table.side, " x ", table.side);
+    std::vector<Target> out = {
+        {"radix, times as fast as bitonic" + suffix, 10, true, over(bitonic)},
+        {"radix, times as fast as std::sort" + suffix, 1, true, over(&table.stdSort())}};
     if (!report.machine.context.software && radix)
-        out.push_back(
-            {"radix, share of the copy bandwidth in each pass" + at, 0.25, true, table.shareOfCopy(*radix)});
+        out.push_back({"radix, share of the copy bandwidth in each pass" + suffix, 0.25, true,
+                       table.shareOfCopy(*radix)});
     const SortTable& most = report.tables.back();
     const SortTime* many = most.find(SortMethod::radix);
     if (!report.machine.context.software && many && most.side > table.side)

@@ -95,8 +95,8 @@ void Canvas::text(glm::ivec2 place, const std::string& words, const Color& color
                   high = int(std::lround(glyph->Y1 - glyph->Y0));
         for (int y = 0; y < high * scale; ++y)
             for (int x = 0; x < wide * scale; ++x) {
-                const int at = (v + y / scale) * letters().width + u + x / scale;
-                const float share = float(letters().texels[at]) / 255;
+                const int texel = (v + y / scale) * letters().width + u + x / scale;
+                const float share = float(letters().texels[texel]) / 255;
                 if (share > 0)
                     blend(int(pen) + int(glyph->X0) * scale + x, place.y + int(glyph->Y0) * scale + y, color,
                           share);

@@ -53,7 +53,7 @@ void findInside(const Scene& scene, const GroupPlan& group, std::vector<Warning>
         forSome(group, [&](size_t m) {
             bool whole = true;  // what only dips in will lie on it
             for (size_t v = 0; v < size_t(group.vertexCount) && whole; ++v)
-                whole = surfaces.at(c, positionOf(group, m, v)).distance < -deepEnough;
+                whole = surfaces.surfaceOf(c, positionOf(group, m, v)).distance < -deepEnough;
             ++looked;
             inside += whole;
         });

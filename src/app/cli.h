@@ -113,8 +113,8 @@ CLI::Option* addRead(CLI::App& command, const char* name, const std::string& wha
 // Adds one that may be repeated, whose values read(text) takes one after another.
 template <typename Read>
 CLI::Option* addReads(CLI::App& command, const char* name, const std::string& what, Read read) {
-    const auto each = [one = namingErrors(name, read)](const std::vector<std::string>& texts) {
-        std::for_each(texts.begin(), texts.end(), one);
+    const auto each = [readEach = namingErrors(name, read)](const std::vector<std::string>& texts) {
+        std::for_each(texts.begin(), texts.end(), readEach);
     };
     return command.add_option_function<std::vector<std::string>>(name, each, what);
 }

@@ -139,7 +139,7 @@ std::vector<DrawnTimes> wantedPictures(const Options& options, const std::vector
         for (const auto& [width, height] : {std::pair(1280, 720), std::pair(1920, 1080)})
             if (concat("drawn: ", scene.first).find(options.only) != std::string::npos)
                 out.push_back({scene.first, width, height, {}, 0});
-    if (options.quick) std::erase_if(out, [](const DrawnTimes& one) { return one.width > 1280; });
+    if (options.quick) std::erase_if(out, [](const DrawnTimes& times) { return times.width > 1280; });
     return out;
 }
 
@@ -149,20 +149,20 @@ void measureDrawn(const Options& options, const std::vector<NamedFile>& scenes, 
     Progress progress("drawn scenes", int(drawn.size()));
     std::unique_ptr<DrawnScene> scene;
     std::string loaded;  // the name of it
-    for (DrawnTimes& one : drawn) {
+    for (DrawnTimes& times : drawn) {
         if (signalThatAsked()) return;
         try {
-            if (!scene || loaded != one.scene) {
+            if (!scene || loaded != times.scene) {
                 const auto file = std::find_if(scenes.begin(), scenes.end(), [&](const NamedFile& candidate) {
-                    return candidate.first == one.scene;
+                    return candidate.first == times.scene;
                 });
                 scene.reset();
                 scene = std::make_unique<DrawnScene>(*file, device);
-                loaded = one.scene;
+                loaded = times.scene;
             }
-            scene->measure(one, options.quick);
+            scene->measure(times, options.quick);
         } catch (const std::exception& error) {
-            one.failed = error.what();
+            times.failed = error.what();
             scene.reset();
         }
         device.context->checkAlive();
@@ -186,12 +186,12 @@ JsonValue asJson(const measure::Spread& wall, const measure::Spread& own) {
     return out;
 }
 
-JsonValue asJson(const DrawnTimes& one) {
-    JsonValue out = object(key("scene", one.scene), key("width", one.width), key("height", one.height));
-    if (!one.failed.empty()) return append(out, key("failed", one.failed));
-    return append(out, key("molecules", one.molecules), key("frames", one.simulate.samples),
-                  key("simulate", asJson(one.simulate, one.deviceSimulate)),
-                  key("draw", asJson(one.draw, one.deviceDraw)));
+JsonValue asJson(const DrawnTimes& times) {
+    JsonValue out = object(key("scene", times.scene), key("width", times.width), key("height", times.height));
+    if (!times.failed.empty()) return append(out, key("failed", times.failed));
+    return append(out, key("molecules", times.molecules), key("frames", times.simulate.samples),
+                  key("simulate", asJson(times.simulate, times.deviceSimulate)),
+                  key("draw", asJson(times.draw, times.deviceDraw)));
 }
 
 JsonValue asJson(const DeviceReport& report, const MeasuredOn& machine, bool quick) {
@@ -224,10 +224,11 @@ std::vector<std::string> troubles(const DeviceReport& report) {
     }
     if (report.speeds)
         for (const BenchResult& result : report.speeds->results)
-            if (!result.failed.empty()) out.push_back(concat(result.one.name(), ": ", result.failed));
-    for (const DrawnTimes& one : report.drawn)
-        if (!one.failed.empty())
-            out.push_back(concat("drawn: ", one.scene, ", ", one.width, " x ", one.height, ": ", one.failed));
+            if (!result.failed.empty()) out.push_back(concat(result.benchCase.name(), ": ", result.failed));
+    for (const DrawnTimes& times : report.drawn)
+        if (!times.failed.empty())
+            out.push_back(
+                concat("drawn: ", times.scene, ", ", times.width, " x ", times.height, ": ", times.failed));
     return out;
 }
 
@@ -236,9 +237,9 @@ std::string asText(const DeviceReport& report, const std::string& file) {
         return std::count_if(report.checks.begin(), report.checks.end(), belongs);
     };
     std::string out =
-        concat(printable(file), ": ", count([](const DeviceCheckResult& one) { return one.held(); }), " of ",
-               report.checks.size(), " checks held, ",
-               count([](const DeviceCheckResult& one) { return !one.leftOut.empty(); }), " left out; ",
+        concat(printable(file), ": ", count([](const DeviceCheckResult& check) { return check.held(); }),
+               " of ", report.checks.size(), " checks held, ",
+               count([](const DeviceCheckResult& check) { return !check.leftOut.empty(); }), " left out; ",
                report.speeds ? report.speeds->results.size() : 0, " cases, ", report.drawn.size(), " drawn; ",
                roughly(report.seconds), "\n");
     for (const std::string& trouble : troubles(report))
@@ -247,9 +248,9 @@ std::string asText(const DeviceReport& report, const std::string& file) {
 }
 
 std::string today() {
-    const std::time_t now = std::time(nullptr);
+    const std::time_t time = std::time(nullptr);
     char text[16] = {};
-    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&time));
     return text;
 }
 

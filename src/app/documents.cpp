@@ -7,7 +7,7 @@ namespace shoal::app {
 namespace {
 
 std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App* one) { return !one->get_name().empty(); });
+    return app.get_subcommands([](const CLI::App* command) { return !command->get_name().empty(); });
 }
 
 // The words between which an option's value is chosen; its type names them: fused|ping-pong|auto.
@@ -57,8 +57,8 @@ std::string valueOf(const CLI::Option& option) {
 std::string optionEntry(const CLI::Option& option) {
     const bool positional = option.get_positional();
     std::string names = option.get_name(positional, !positional);
-    for (size_t at = 0; (at = names.find(',', at)) != std::string::npos; at += 2)
-        names.replace(at, 1, ", ");
+    for (size_t comma = 0; (comma = names.find(',', comma)) != std::string::npos; comma += 2)
+        names.replace(comma, 1, ", ");
     return ".TP\n\\fB" + roff(names) + "\\fR" + (positional ? "" : valueOf(option)) + "\n" +
            roff(describe(option)) + "\n";
 }

@@ -227,9 +227,9 @@ class TextureExport {
         AnimationFrame out;
         const size_t each = group_.verticesEach();
         for (size_t m = 0; m < part.count; ++m) {
-            const auto now = std::span(positions).subspan(m * each, each);
+            const auto current = std::span(positions).subspan(m * each, each);
             const exchange::RigidMotion motion =
-                exchange::rigidMotion(std::span(part.rest).subspan(m * each, each), now);
+                exchange::rigidMotion(std::span(part.rest).subspan(m * each, each), current);
             glm::dquat turn = motion.turn;
             if (glm::dot(turn, part.turns[m]) < 0) turn = -turn;
             part.turns[m] = turn;
@@ -268,10 +268,10 @@ class TextureExport {
         AnimationFrame base;
         if (!options_.rigid) base = part.texture->frame(size_t(options_.loop));
         for (int i = 0; i < options_.frames; ++i) {
-            AnimationFrame now = looped(part, i);
+            AnimationFrame frame = looped(part, i);
             for (size_t c = 0; c < base.offsets.size(); ++c)
-                now.offsets[c] -= base.offsets[c];
-            texture->add(now);
+                frame.offsets[c] -= base.offsets[c];
+            texture->add(frame);
         }
         part.texture = std::move(texture);
     }

@@ -121,12 +121,12 @@ class UsdGroup {
             if (!mesh_.points()) out.normals = std::move(normals);
         }
         if (!fit_ && (changes_ || mesh_.looksChange())) {
-            DrawnMesh now = mesh_.mesh(molecules);
-            out.colors = std::move(now.colors);
-            out.opacities = std::move(now.opacities);
-            out.widths = std::move(now.sizes);
-            if (changes_) out.corners = std::move(now.corners);
-            if (changes_ && !mesh_.points()) out.uvs = std::move(now.uvs);
+            DrawnMesh mesh = mesh_.mesh(molecules);
+            out.colors = std::move(mesh.colors);
+            out.opacities = std::move(mesh.opacities);
+            out.widths = std::move(mesh.sizes);
+            if (changes_) out.corners = std::move(mesh.corners);
+            if (changes_ && !mesh_.points()) out.uvs = std::move(mesh.uvs);
         }
         stage.sample(number_, frame, out);
     }

@@ -159,19 +159,19 @@ void writeVtp(const std::string& file, Simulation& simulation, const Scene& scen
 static std::string xmlQuoted(std::string_view text) {
     std::string out;
     while (!text.empty()) {
-        const Utf8 one = firstCharacter(text);
-        const bool known = one.code == '\n' || one.code == '\r' || one.code == '\t' ||
-                           (one.code >= 0x20 && one.code < 0xfffe) ||
-                           (one.code >= 0x10000 && one.code <= 0x10ffff);
+        const Utf8 character = firstCharacter(text);
+        const bool known = character.code == '\n' || character.code == '\r' || character.code == '\t' ||
+                           (character.code >= 0x20 && character.code < 0xfffe) ||
+                           (character.code >= 0x10000 && character.code <= 0x10ffff);
         if (!known)
             throw Error(concat("\"", text,
                                "\": an index (.pvd) cannot name a file with control characters or "
                                "bytes that are no UTF-8"));
-        if (one.code < 0x20 || std::string_view("\"&<>").find(text[0]) != std::string_view::npos)
-            out += concat("&#", one.code, ";");
+        if (character.code < 0x20 || std::string_view("\"&<>").find(text[0]) != std::string_view::npos)
+            out += concat("&#", character.code, ";");
         else
-            out += text.substr(0, one.bytes);
-        text.remove_prefix(one.bytes);
+            out += text.substr(0, character.bytes);
+        text.remove_prefix(character.bytes);
     }
     return out;
 }

@@ -22,12 +22,13 @@ void addPlaces(std::vector<Place>& out, const Place& place) {
     for (const Key& key : place.object->keys()) {
         const std::string inner = concat(place.path, ".", key.name);
         if (key.kind == Key::Kind::object || key.kind == Key::Kind::byHand)
-            for (const Description* one : key.objects)
-                addPlaces(out, {inner, key.name, one});
+            for (const Description* description : key.objects)
+                addPlaces(out, {inner, key.name, description});
         if (key.kind == Key::Kind::list) addPlaces(out, {inner + "[]", key.name, key.objects[0]});
         if (key.kind != Key::Kind::variant) continue;
-        for (const Description* one : key.objects)
-            addPlaces(out, {concat(place.path, ", ", key.name, " \"", one->name(), "\""), one->name(), one});
+        for (const Description* description : key.objects)
+            addPlaces(out, {concat(place.path, ", ", key.name, " \"", description->name(), "\""),
+                            description->name(), description});
     }
 }
 
@@ -39,9 +40,9 @@ std::vector<Place> allPlaces() {
     return out;
 }
 
-void print(const Key& key, const Description& of) {
-    std::cout << "  " << key.name << ": " << typeText(key) << "; " << usualText(key, of) << "\n      "
-              << meaningOf(key) << "\n";
+void print(const Key& key, const Description& description) {
+    std::cout << "  " << key.name << ": " << typeText(key) << "; " << usualText(key, description)
+              << "\n      " << meaningOf(key) << "\n";
 }
 
 void print(const Place& place) {

@@ -68,7 +68,7 @@ struct MeasuredWith {
 
 struct Measured {
     measure::ReportEntry entry;
-    MeasuredWith with;
+    MeasuredWith conditions;
 };
 
 // The points, why there are no errors, and what was chosen (without candidates). Nothing: there is no such

@@ -83,7 +83,7 @@ MeasuredWith withWhat(const Options& options, const ReportScene& scene, const Ac
 bool isMissing(const Options& options, const ReportScene& scene, const AccuracyDevice& device) {
     const std::optional<Measured> found = readMeasured(fileOf(options, scene));
     if (!found) return true;
-    const std::string differs = difference(found->with, withWhat(options, scene, device));
+    const std::string differs = difference(found->conditions, withWhat(options, scene, device));
     if (!differs.empty()) std::cerr << scene.id << ": measured again, because " << differs << " differs\n";
     return !differs.empty();
 }
@@ -110,14 +110,14 @@ void measureMissing(const Options& options, const std::vector<ReportScene>& all,
 // Returns the heads of all files, each once: with --only, some may have been measured elsewhere.
 std::string headOf(const std::vector<std::optional<Measured>>& found) {
     std::vector<std::string> heads;
-    for (const std::optional<Measured>& one : found) {
-        if (!one) continue;
-        const MeasuredWith& with = one->with;
-        const auto [measured, timed] = with.molecules.at(0);
-        const std::string head =
-            concat("Machine: ", printable(with.processor), ". Context: ", printable(with.renderer), " (",
-                   printable(with.context), "), OpenGL ", printable(with.opengl), ". ", timed,
-                   " molecules timed, ", measured, " measured.\n\n");
+    for (const std::optional<Measured>& result : found) {
+        if (!result) continue;
+        const MeasuredWith& conditions = result->conditions;
+        const auto [measured, timed] = conditions.molecules.at(0);
+        const std::string head = concat(
+            "Machine: ", printable(conditions.processor), ". Context: ", printable(conditions.renderer), " (",
+            printable(conditions.context), "), OpenGL ", printable(conditions.opengl), ". ", timed,
+            " molecules timed, ", measured, " measured.\n\n");
         if (std::find(heads.begin(), heads.end(), head) == heads.end()) heads.push_back(head);
     }
     std::string out;
@@ -154,11 +154,11 @@ void drawAll(const Options& options, const std::vector<ReportScene>& all,
 std::vector<std::optional<Measured>> readAll(const Options& options, const std::vector<ReportScene>& all) {
     std::vector<std::optional<Measured>> out;
     for (const ReportScene& scene : all) {
-        std::optional<Measured>& one = out.emplace_back(readMeasured(fileOf(options, scene)));
-        if (!one) continue;
-        one->entry.molecule = scene.molecule;
-        one->entry.motion = scene.motion;
-        one->entry.stiffness = scene.stiffness;
+        std::optional<Measured>& result = out.emplace_back(readMeasured(fileOf(options, scene)));
+        if (!result) continue;
+        result->entry.molecule = scene.molecule;
+        result->entry.motion = scene.motion;
+        result->entry.stiffness = scene.stiffness;
     }
     return out;
 }
@@ -168,10 +168,10 @@ void tellAll(const Options& options, const std::vector<ReportScene>& all) {
     const std::vector<std::optional<Measured>> found = readAll(options, all);
     std::vector<ReportEntry> entries;
     std::string machine;  // of the first
-    for (const std::optional<Measured>& one : found) {
-        if (!one) continue;
-        if (entries.empty()) machine = one->with.processor + ", " + one->with.renderer;
-        entries.push_back(one->entry);
+    for (const std::optional<Measured>& result : found) {
+        if (!result) continue;
+        if (entries.empty()) machine = result->conditions.processor + ", " + result->conditions.renderer;
+        entries.push_back(result->entry);
     }
     if (entries.empty())
         throw WrongUse(concat("--only: no scene of the report has \"", options.only, "\" in its name"));

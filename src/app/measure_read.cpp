@@ -11,73 +11,75 @@ using namespace measure;
 namespace {
 
 // A member that must be there.
-const JsonValue& at(const JsonValue& object, const char* key) {
+const JsonValue& member(const JsonValue& object, const char* key) {
     const JsonValue* found = object.find(key);
     if (found == nullptr) throw Error(concat("\"", key, "\" is missing"));
     return *found;
 }
 
 Method methodOf(const JsonValue& value) {
-    return {solverOf(at(value, "solver").text).value_or(SolverKind::leapfrog),
-            samplingOf(at(value, "fieldSampling").text)};
+    return {solverOf(member(value, "solver").text).value_or(SolverKind::leapfrog),
+            samplingOf(member(value, "fieldSampling").text)};
 }
 
 AccuracyPoint pointOf(const JsonValue& value) {
     AccuracyPoint out;
     out.method = methodOf(value);
-    out.step = {int(at(value, "substeps").number), int(at(value, "framesPerFrame").number)};
-    out.stepsPerSecond = at(value, "stepsPerSecond").number;
-    for (const Outcome one : {Outcome::measured, Outcome::refused, Outcome::notFinite, Outcome::leftOut})
-        if (at(value, "outcome").text == name(one)) out.outcome = one;
+    out.step = {int(member(value, "substeps").number), int(member(value, "framesPerFrame").number)};
+    out.stepsPerSecond = member(value, "stepsPerSecond").number;
+    for (const Outcome outcome : {Outcome::measured, Outcome::refused, Outcome::notFinite, Outcome::leftOut})
+        if (member(value, "outcome").text == name(outcome)) out.outcome = outcome;
     if (out.outcome != Outcome::measured) return out;
-    const JsonValue& error = at(value, "error");
+    const JsonValue& error = member(value, "error");
     if (error.kind == JsonValue::Kind::object)
-        out.error = ErrorParts{at(error, "total").number, at(error, "centroid").number,
-                               at(error, "shape").number, at(error, "worst").number};
-    out.time = {at(value, "minSecondsPerVertexAndSecond").number,
-                at(value, "medianSecondsPerVertexAndSecond").number, int(at(value, "samples").number)};
-    out.front = at(value, "front").boolean;
+        out.error = ErrorParts{member(error, "total").number, member(error, "centroid").number,
+                               member(error, "shape").number, member(error, "worst").number};
+    out.time = {member(value, "minSecondsPerVertexAndSecond").number,
+                member(value, "medianSecondsPerVertexAndSecond").number,
+                int(member(value, "samples").number)};
+    out.front = member(value, "front").boolean;
     return out;
 }
 
 ReportEntry entryOf(const JsonValue& value) {
     ReportEntry out;
-    out.accuracy.scene = at(value, "scene").text;
-    out.accuracy.seconds = at(value, "seconds").number;
-    out.accuracy.chaotic = at(value, "chaotic").text;
+    out.accuracy.scene = member(value, "scene").text;
+    out.accuracy.seconds = member(value, "seconds").number;
+    out.accuracy.chaotic = member(value, "chaotic").text;
     if (const JsonValue* tooStiff = value.find("tooStiff")) out.accuracy.tooStiff = tooStiff->text;
-    for (const JsonValue& point : at(value, "points").items)
+    for (const JsonValue& point : member(value, "points").items)
         out.accuracy.points.push_back(pointOf(point));
-    const JsonValue& chosen = at(value, "chosen");
+    const JsonValue& chosen = member(value, "chosen");
     if (chosen.kind != JsonValue::Kind::object) return out;
     out.chosen.emplace();
-    out.chosen->target = at(chosen, "target").number;
+    out.chosen->target = member(chosen, "target").number;
     out.chosen->method = methodOf(chosen);
-    out.chosen->substeps = int(at(chosen, "substeps").number);
-    out.chosen->error = at(chosen, "error").number;
+    out.chosen->substeps = int(member(chosen, "substeps").number);
+    out.chosen->error = member(chosen, "error").number;
     return out;
 }
 
 MeasuredWith withOf(const JsonValue& value) {
-    const JsonValue &machine = at(value, "machine"), &context = at(value, "context");
+    const JsonValue &machine = member(value, "machine"), &context = member(value, "context");
     MeasuredWith out;
-    out.processor = at(machine, "processor").text;
-    out.cores = int(at(machine, "cores").number);
-    out.renderer = at(context, "renderer").text;
-    out.context = at(context, "kind").text;
-    out.opengl = at(context, "version").text;
-    out.path = at(value, "path").text;
-    out.scene = at(value, "scene").text;
-    out.frameRate = at(value, "frameRate").number;
-    out.duration = at(value, "duration").number;
-    out.target = at(value, "target").number;
-    for (const JsonValue& group : at(value, "groups").items) {
-        out.molecules.emplace_back(at(group, "measuredMolecules").number, at(group, "timedMolecules").number);
-        out.shapes.emplace_back(at(group, "vertices").number, at(group, "springs").number);
+    out.processor = member(machine, "processor").text;
+    out.cores = int(member(machine, "cores").number);
+    out.renderer = member(context, "renderer").text;
+    out.context = member(context, "kind").text;
+    out.opengl = member(context, "version").text;
+    out.path = member(value, "path").text;
+    out.scene = member(value, "scene").text;
+    out.frameRate = member(value, "frameRate").number;
+    out.duration = member(value, "duration").number;
+    out.target = member(value, "target").number;
+    for (const JsonValue& group : member(value, "groups").items) {
+        out.molecules.emplace_back(member(group, "measuredMolecules").number,
+                                   member(group, "timedMolecules").number);
+        out.shapes.emplace_back(member(group, "vertices").number, member(group, "springs").number);
     }
-    for (const JsonValue& point : at(value, "points").items) {
-        out.solvers.insert(at(point, "solver").text);
-        out.samplings.insert(at(point, "fieldSampling").text);
+    for (const JsonValue& point : member(value, "points").items) {
+        out.solvers.insert(member(point, "solver").text);
+        out.samplings.insert(member(point, "fieldSampling").text);
     }
     return out;
 }
@@ -101,8 +103,8 @@ std::string difference(const MeasuredWith& found, const MeasuredWith& wanted) {
         {"the error wanted", alike(found.target, wanted.target)},
         {"the solvers", found.solvers == wanted.solvers},
         {"the field samplings", found.samplings == wanted.samplings}};
-    for (const auto& [what, is] : same)
-        if (!is) return what;
+    for (const auto& [what, agrees] : same)
+        if (!agrees) return what;
     return {};
 }
 
@@ -111,7 +113,7 @@ std::optional<Measured> readMeasured(const std::string& file) {
     if (!std::filesystem::exists(file, none)) return std::nullopt;
     try {
         const JsonValue value = readJson(file);
-        if (at(value, "version").text != SHOAL_VERSION) return std::nullopt;
+        if (member(value, "version").text != SHOAL_VERSION) return std::nullopt;
         return Measured{entryOf(value), withOf(value)};
     } catch (const Error&) {
         return std::nullopt;

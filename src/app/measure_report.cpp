@@ -118,18 +118,18 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
     const std::optional<BestOf> euler = bestOf(points, SolverKind::euler, report.target);
     bool head = false;
     for (const Solver& solver : solvers()) {
-        const std::optional<BestOf> one = bestOf(points, solver.kind, report.target);
-        if (!one) continue;
+        const std::optional<BestOf> best = bestOf(points, solver.kind, report.target);
+        if (!best) continue;
         if (!head)
             out << "\nan error of " << report.target
                 << " of these molecules costs, ns per vertex and simulated second\n";
         head = true;
         out << "  " << std::left << std::setw(16) << solver.name << std::right << std::setw(10)
-            << nanoseconds(one->cost.time) << "   " << name(one->method.sampling) << ", "
-            << (one->cost.atLargestStep ? "at the largest step, " : "")
-            << bench::grouped(int(std::lround(one->cost.stepsPerSecond))) << " steps a second";
+            << nanoseconds(best->cost.time) << "   " << name(best->method.sampling) << ", "
+            << (best->cost.atLargestStep ? "at the largest step, " : "")
+            << bench::grouped(int(std::lround(best->cost.stepsPerSecond))) << " steps a second";
         if (euler && solver.kind != SolverKind::euler)
-            out << "; " << formatted("%.2g", euler->cost.time / one->cost.time) << " times as fast as euler";
+            out << "; " << formatted("%.2g", euler->cost.time / best->cost.time) << " times as fast as euler";
         out << "\n";
     }
 }
@@ -190,30 +190,32 @@ const AccuracyPoint* chosenPoint(const MeasureReport& report) {
 }
 
 // Says how large the error is, and for which molecules that is claimed.
-static std::string sampleText(const Calibration& one) {
-    const SampleError& s = one.sample;
-    std::string out = concat("measured ", exponent(one.error), " RMS");
+static std::string sampleText(const Calibration& calibration) {
+    const SampleError& s = calibration.sample;
+    std::string out = concat("measured ", exponent(calibration.error), " RMS");
     if (s.compared > s.measured) out += concat(" of ", s.measured, " molecules");
     out += concat(" and ", exponent(s.worst), " at worst of ", s.compared,
-                  s.compared == 1 ? " molecule (" : " molecules (", one.how, ")");
+                  s.compared == 1 ? " molecule (" : " molecules (", calibration.how, ")");
     if (s.above > 0) out += concat(", ", s.above, " above");
     if (s.untold > 0) out += concat(", nothing known of ", s.untold, " more");
     return out;
 }
 
-std::string oneLine(const Calibration& one) {
-    return concat("error ", one.target, ": ", shoal::name(one.method.solver), ", ", one.substeps,
-                  one.substeps == 1 ? " substep" : " substeps", " a frame, fields by ",
-                  shoal::name(one.method.sampling), "; ", sampleText(one), "; ", nanoseconds(one.cost),
+std::string oneLine(const Calibration& calibration) {
+    return concat("error ", calibration.target, ": ", shoal::name(calibration.method.solver), ", ",
+                  calibration.substeps, calibration.substeps == 1 ? " substep" : " substeps",
+                  " a frame, fields by ", shoal::name(calibration.method.sampling), "; ",
+                  sampleText(calibration), "; ", nanoseconds(calibration.cost),
                   " ns per vertex and simulated second, ",
-                  one.kept ? "as found before" : concat("found in ", formatted("%.1f", one.seconds), " s"));
+                  calibration.kept ? "as found before"
+                                   : concat("found in ", formatted("%.1f", calibration.seconds), " s"));
 }
 
-std::string asText(const Calibration& one) {
-    std::string out = concat(oneLine(one), ": ", printable(one.why), "\n");
+std::string asText(const Calibration& calibration) {
+    std::string out = concat(oneLine(calibration), ": ", printable(calibration.why), "\n");
     const char* row = "  %-30s%5s%10s%10s%9s";
     out += formatted(row, "method", "steps", "RMS", "worst", "ns") + "\n";
-    for (const Candidate& candidate : one.candidates) {
+    for (const Candidate& candidate : calibration.candidates) {
         const std::string steps = candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-",
                           rms = candidate.error ? exponent(*candidate.error) : "-",
                           worst = candidate.worst ? exponent(*candidate.worst) : "-",

@@ -144,9 +144,9 @@ void addMeasure(CLI::App& command, Options& options) {
 
 FieldSampling samplingOf(const std::string& word) {
     std::vector<std::string> words;
-    for (const FieldSampling one : measure::allSamplings) {
-        if (word == name(one)) return one;
-        words.emplace_back(name(one));
+    for (const FieldSampling sampling : measure::allSamplings) {
+        if (word == name(sampling)) return sampling;
+        words.emplace_back(name(sampling));
     }
     throw Error(concat("unknown sampling \"", word, "\"", suggestion(word, words)));
 }

@@ -22,8 +22,8 @@ void addMaking(CLI::App& command, Options& options) {
     };
     command.add_flag("--force", molecule.force, "Write over a file that is there");
     std::vector<std::string> names;
-    for (const ScaledMaterial& one : materialScale())
-        names.emplace_back(one.name);
+    for (const ScaledMaterial& material : materialScale())
+        names.emplace_back(material.name);
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
         ->type_name(joined(names, "|"));
     number("--mass", make.mass, "kg, in all (default: from the material)");

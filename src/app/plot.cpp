@@ -65,8 +65,8 @@ void drawWithGnuplot(const std::string& file, const std::string& script) {
 // looks for nothing.
 std::string quoted(const std::string& given) {
     std::string text = printable(given);
-    for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
-        text.insert(at, "'");
+    for (size_t quote = 0; (quote = text.find('\'', quote)) != std::string::npos; quote += 2)
+        text.insert(quote, "'");
     return "'" + text + "'";
 }
 
@@ -140,10 +140,10 @@ constexpr BenchCurve benchCurves[] = {{Subject::pingPong, "ping-pong", "#D55E00"
                                       {Subject::avx2, "CPU, AVX2", "#009E73", 11},
                                       {Subject::avx512, "CPU, AVX-512", "#CC79A7", 13}};
 
-bool plotted(const BenchCase& one) {
-    return one.molecule == "quad" && one.label == bench::name(one.subject) &&
+bool plotted(const BenchCase& benchCase) {
+    return benchCase.molecule == "quad" && benchCase.label == bench::name(benchCase.subject) &&
            std::any_of(std::begin(benchCurves), std::end(benchCurves),
-                       [&](const BenchCurve& each) { return each.subject == one.subject; });
+                       [&](const BenchCurve& each) { return each.subject == benchCase.subject; });
 }
 
 std::string benchScript(const std::string& file, const std::string& title,
@@ -153,11 +153,12 @@ std::string benchScript(const std::string& file, const std::string& title,
     for (const BenchCurve& each : benchCurves) {
         std::ostringstream rows;
         for (const BenchResult& result : results) {
-            if (result.one.subject != each.subject || !plotted(result.one) || !(result.frame.min > 0))
+            if (result.benchCase.subject != each.subject || !plotted(result.benchCase) ||
+                !(result.frame.min > 0))
                 continue;
             const double nanoseconds = result.perMolecule() * 1e9;
-            rows << result.one.count << " " << nanoseconds << "\n";
-            limits.add(result.one.count, nanoseconds);
+            rows << result.benchCase.count << " " << nanoseconds << "\n";
+            limits.add(result.benchCase.count, nanoseconds);
         }
         curves.add(rows.str(),
                    concat(" title '", each.title, "'", marked(2.5, 1.3, each.marker, each.color)));
@@ -264,9 +265,9 @@ class Panels {
 
     static std::string title(const AccuracyPanel& panel, const Method& method) {
         const std::vector<Method> all = methodsOf(panel.points);
-        const bool one = std::all_of(all.begin(), all.end(),
-                                     [&](const Method& m) { return m.sampling == all[0].sampling; });
-        return one ? shoal::name(method.solver) : measure::name(method);
+        const bool sameSampling = std::all_of(all.begin(), all.end(),
+                                              [&](const Method& m) { return m.sampling == all[0].sampling; });
+        return sameSampling ? shoal::name(method.solver) : measure::name(method);
     }
 
     void chosen(const AccuracyPoint& point) {

@@ -65,15 +65,15 @@ Trial tryOut(const Molecule& molecule, const Options& options) {
         simulation.frame();
         if (frame % 4 != 3) continue;
         simulation.check();
-        const Snapshot now = simulation.snapshot(0);
+        const Snapshot state = simulation.snapshot(0);
         for (const Spring& spring : molecule.springs) {
             const double rest = molecule.restLength(spring);
             const double length =
-                glm::distance(now.positions[size_t(spring.a)], now.positions[size_t(spring.b)]);
+                glm::distance(state.positions[size_t(spring.a)], state.positions[size_t(spring.b)]);
             if (rest > 0) out.change = std::max(out.change, std::abs(length / rest - 1));
         }
         out.speed = 0;
-        for (const glm::dvec3& velocity : now.velocities)
+        for (const glm::dvec3& velocity : state.velocities)
             out.speed = std::max(out.speed, glm::length(velocity));
     }
     return out;

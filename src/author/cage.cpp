@@ -72,15 +72,15 @@ Numbered numbered(const std::set<LatticeCell>& cells) {
 }
 
 // Adds every cell about the corners at which parts meet: hinges would bend without resistance.
-void joinAtCorners(std::set<LatticeCell>& cells, const Numbered& now) {
-    const std::vector<size_t> parts = partsOf(now.cells);
-    std::vector<std::set<size_t>> at(now.corners.size());
+void joinAtCorners(std::set<LatticeCell>& cells, const Numbered& numbered) {
+    const std::vector<size_t> parts = partsOf(numbered.cells);
+    std::vector<std::set<size_t>> partsAt(numbered.corners.size());
     for (size_t c = 0; c < parts.size(); ++c)
-        for (const int corner : now.cells[c])
-            at[size_t(corner)].insert(parts[c]);
-    for (size_t corner = 0; corner < at.size(); ++corner) {
-        if (at[corner].size() < 2) continue;
-        const glm::dvec3 place = 0.5 * glm::dvec3(now.corners[corner]);
+        for (const int corner : numbered.cells[c])
+            partsAt[size_t(corner)].insert(parts[c]);
+    for (size_t corner = 0; corner < partsAt.size(); ++corner) {
+        if (partsAt[corner].size() < 2) continue;
+        const glm::dvec3 place = 0.5 * glm::dvec3(numbered.corners[corner]);
         // The cells about a place have points this near to it in every direction.
         for (int i = 0; i < 7 * 7 * 7; ++i) {
             const glm::dvec3 way = glm::dvec3(i % 7, i / 7 % 7, i / 49) - 3.0 + glm::dvec3(0.01, 0.02, 0.03);
@@ -157,15 +157,15 @@ Lattice cageAround(const Mesh& mesh, const Inside* inside, int vertices) {
     for (double spacing = longest; spacing > longest / 30 && worse < 5; spacing *= 0.92) {
         ++worse;
         for (const double offset : {0.0, 0.3, 0.6}) {
-            const Lattices at{spacing,
-                              0.5 * (mesh.low + mesh.high) + spacing * glm::dvec3(offset, 0.7 * offset, 0.4)};
-            Numbered found = cellsThrough(all, at, size_t(vertices));
+            const Lattices lattices{
+                spacing, 0.5 * (mesh.low + mesh.high) + spacing * glm::dvec3(offset, 0.7 * offset, 0.4)};
+            Numbered found = cellsThrough(all, lattices, size_t(vertices));
             if (found.cells.empty()) continue;
             worse = 0;
             if (bestAt.spacing > spacing || best.cells.empty() ||
                 found.corners.size() > best.corners.size()) {
                 best = std::move(found);
-                bestAt = at;
+                bestAt = lattices;
             }
         }
         if (best.cells.empty()) worse = 0;  // too coarse still, or in parts

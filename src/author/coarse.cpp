@@ -272,7 +272,7 @@ Inside::Inside(const Mesh& mesh) {
                 if (winding_[grid_.index(x, y, z)] != 0) samples_.push_back(grid_.place(x, y, z));
 }
 
-bool Inside::at(const glm::dvec3& point) const {
+bool Inside::contains(const glm::dvec3& point) const {
     const glm::ivec3 cell(glm::round((point - grid_.low) / grid_.cell));
     for (int axis = 0; axis < 3; ++axis)
         if (cell[axis] < 0 || cell[axis] >= grid_.size[axis]) return false;
@@ -283,7 +283,7 @@ double Inside::share(const glm::dvec3& a, const glm::dvec3& b) const {
     constexpr int points = 9;
     int count = 0;
     for (int i = 1; i <= points; ++i)
-        count += at(glm::mix(a, b, double(i) / (points + 1))) ? 1 : 0;
+        count += contains(glm::mix(a, b, double(i) / (points + 1))) ? 1 : 0;
     return double(count) / points;
 }
 

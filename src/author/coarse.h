@@ -38,7 +38,7 @@ class Inside {
     // missed.
     explicit Inside(const Mesh& mesh);
 
-    bool at(const glm::dvec3& point) const;
+    bool contains(const glm::dvec3& point) const;
     // The share of points of the segment that lie inside.
     double share(const glm::dvec3& a, const glm::dvec3& b) const;
     double volume() const { return double(samples_.size()) * grid_.cell * grid_.cell * grid_.cell; }

@@ -35,14 +35,14 @@ ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int 
         if (image[size_t(v)] >= 0) out.vertices.insert(image[size_t(v)]);
     for (const int s : selected.springs) {
         const Spring& spring = molecule.springs[size_t(s)];
-        const int there = springBetween(molecule, image[size_t(spring.a)], image[size_t(spring.b)]);
-        if (there >= 0) out.springs.insert(there);
+        const int found = springBetween(molecule, image[size_t(spring.a)], image[size_t(spring.b)]);
+        if (found >= 0) out.springs.insert(found);
     }
     for (const int i : selected.triangles) {
         const Triangle& t = molecule.triangles[size_t(i)];
-        const int there =
+        const int found =
             triangleBetween(molecule, {image[size_t(t.a)], image[size_t(t.b)], image[size_t(t.c)]});
-        if (there >= 0) out.triangles.insert(there);
+        if (found >= 0) out.triangles.insert(found);
     }
     return out;
 }

@@ -71,7 +71,7 @@ class Maker {
     Molecule& molecule() { return made_.molecule; }
 
     void examine() {
-        const Activity now("looking for what the mesh encloses");
+        const Activity activity("looking for what the mesh encloses");
         SurfaceReport report = examineSurface(shape_);
         if (report.triangles <= report.degenerate) throw Error("every triangle of the mesh has no area");
         made_.area = report.area;
@@ -112,12 +112,12 @@ class Maker {
         constexpr double small = 0.05;  // of the area
         Mesh out = shape_;
         const int holes = closeHoles(out, small * report.area);
-        const SurfaceReport now = examineSurface(out);
-        if (holes == 0 || !now.closed()) return {};
+        const SurfaceReport examined = examineSurface(out);
+        if (holes == 0 || !examined.closed()) return {};
         made_.notes.push_back(concat(many(holes, "hole was", "holes were"), " closed, at the first at (",
                                      report.where.x, ", ", report.where.y, ", ", report.where.z,
                                      "), to make it a body; the skin keeps them"));
-        report = now;
+        report = examined;
         return out;
     }
 
@@ -141,7 +141,7 @@ class Maker {
     }
 
     void makeCoarse() {
-        const Activity now("simplifying the mesh");
+        const Activity activity("simplifying the mesh");
         using Springs = FromMesh::Springs;
         const int vertices = wantedVertices();
         if (options_.rings) {
@@ -200,8 +200,8 @@ class Maker {
         glm::dvec3 color(1);
         if (!mesh_.colors.empty()) {
             color = glm::dvec3(0);
-            for (const glm::dvec3& one : mesh_.colors)
-                color += glm::clamp(one, 0.0, 1.0) / double(mesh_.colors.size());
+            for (const glm::dvec3& vertexColor : mesh_.colors)
+                color += glm::clamp(vertexColor, 0.0, 1.0) / double(mesh_.colors.size());
         }
         glm::dvec3 factor(0);
         double roughness = 0, metallic = 0;
@@ -301,7 +301,7 @@ class Maker {
     }
 
     void addSkin() {
-        const Activity now("binding the skin");
+        const Activity activity("binding the skin");
         if (options_.images) {
             made_.image = gatherColors(mesh_, made_.notes);
             if (made_.image) molecule().material.color = glm::dvec3(1);

@@ -80,10 +80,10 @@ class Builder {
     double fill(const Cell& cell, const std::vector<glm::dvec4>& points) const {
         int count = 0;
         for (const glm::dvec4& p : points) {
-            glm::dvec3 at(0);
+            glm::dvec3 point(0);
             for (int i = 0; i < 4; ++i)
-                at += p[i] * place(cell[size_t(i)]);
-            count += inside_.at(at) ? 1 : 0;
+                point += p[i] * place(cell[size_t(i)]);
+            count += inside_.contains(point) ? 1 : 0;
         }
         return double(count) / double(points.size());
     }
@@ -180,9 +180,10 @@ Lattice latticeOf(std::vector<glm::dvec3> places, std::vector<Cell> cells) {
     for (const Cell& cell : out.cells)
         for (size_t apex = 0; apex < 4; ++apex) {
             glm::ivec3 face(cell[(apex + 1) % 4], cell[(apex + 2) % 4], cell[(apex + 3) % 4]);
-            const auto at = [&](int v) { return out.surface.positions[size_t(v)]; };
-            const glm::dvec3 normal = glm::cross(at(face.y) - at(face.x), at(face.z) - at(face.x));
-            if (glm::dot(normal, at(cell[apex]) - at(face.x)) > 0) std::swap(face.y, face.z);
+            const auto position = [&](int v) { return out.surface.positions[size_t(v)]; };
+            const glm::dvec3 normal =
+                glm::cross(position(face.y) - position(face.x), position(face.z) - position(face.x));
+            if (glm::dot(normal, position(cell[apex]) - position(face.x)) > 0) std::swap(face.y, face.z);
             std::array<int, 3> key = {face.x, face.y, face.z};
             std::sort(key.begin(), key.end());
             if (!faces.try_emplace(key, face).second) faces.erase(key);

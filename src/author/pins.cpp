@@ -26,8 +26,8 @@ bool mark(Marks& marks, const Mesh& mesh, const PinRule& rule) {
     const double slack = 1e-9 * glm::distance(mesh.low, mesh.high);
     bool any = false;
     for (size_t v = 0; v < marks.size(); ++v) {
-        const double at = mesh.weldedPositions[v][rule.axis];
-        if (rule.below ? at > limit + slack : at < limit - slack) continue;
+        const double coordinate = mesh.weldedPositions[v][rule.axis];
+        if (rule.below ? coordinate > limit + slack : coordinate < limit - slack) continue;
         marks[v] = any = true;
     }
     return any;
@@ -64,8 +64,8 @@ bool markPaint(Marks& marks, const Mesh& mesh, const glm::dvec3& paint) {
 std::string namesIn(const Mesh& mesh) {
     std::vector<std::string> all;
     const auto add = [&](const std::string& name) {
-        for (const std::string& one : all)
-            if (one == name) return;
+        for (const std::string& known : all)
+            if (known == name) return;
         if (!name.empty()) all.push_back(name);
     };
     for (const Mesh::Object& object : mesh.objects)

@@ -12,8 +12,8 @@ namespace {
 
 // m^2.
 double areaOf(const Molecule& molecule, const Triangle& t) {
-    const auto at = [&](int v) { return molecule.vertices[size_t(v)].position; };
-    return 0.5 * glm::length(glm::cross(at(t.b) - at(t.a), at(t.c) - at(t.a)));
+    const auto position = [&](int v) { return molecule.vertices[size_t(v)].position; };
+    return 0.5 * glm::length(glm::cross(position(t.b) - position(t.a), position(t.c) - position(t.a)));
 }
 
 // Adds a vertex, or a spring, that is new to the file.
@@ -39,12 +39,13 @@ class Splitter {
     static std::pair<int, int> key(int a, int b) { return std::minmax(a, b); }
     void split(int a, int b) {
         if (middles_.contains(key(a, b))) return;
-        const Vertex &one = draft_.molecule.vertices[size_t(a)], &other = draft_.molecule.vertices[size_t(b)];
+        const Vertex &first = draft_.molecule.vertices[size_t(a)],
+                     &other = draft_.molecule.vertices[size_t(b)];
         Vertex middle;
-        middle.position = 0.5 * (one.position + other.position);
-        middle.uv = 0.5 * (one.uv + other.uv);
-        middle.mass = 0.5 * (one.mass + other.mass);
-        middle.pinned = one.pinned && other.pinned;
+        middle.position = 0.5 * (first.position + other.position);
+        middle.uv = 0.5 * (first.uv + other.uv);
+        middle.mass = 0.5 * (first.mass + other.mass);
+        middle.pinned = first.pinned && other.pinned;
         const int m = middles_[key(a, b)] = add(draft_, middle);
         const int spring = springBetween(draft_.molecule, a, b);
         if (spring < 0) {

@@ -28,8 +28,8 @@ void checkDivisions(const Shape& shape, int divisions);
 // Returns a mesh about the origin whose longest side is 1 m, with texture coordinates. Error:
 // checkDivisions's.
 Mesh shapeMesh(const Shape& shape, int divisions);
-// What else to ask of makeMolecule() for the shape's mesh: all of its vertices, no skin, and where nothing is
-// said a size of 0.2 m and its material.
+// Completes what is asked of makeMolecule() for the shape's mesh: all of its vertices, no skin, and where
+// nothing is said a size of 0.2 m and its material.
 FromMesh ofShape(const Shape& shape, const Mesh& mesh, FromMesh asked);
 
 }  // namespace shoal

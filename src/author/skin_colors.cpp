@@ -55,9 +55,9 @@ class Gathering {
         tileOf_.assign(mesh_.triangles.size(), -1);
         std::map<int, int> known;
         for (const Mesh::Part& part : mesh_.parts) {
-            const auto [at, fresh] = known.try_emplace(part.look, int(tiles_.size()));
+            const auto [entry, fresh] = known.try_emplace(part.look, int(tiles_.size()));
             if (fresh) tiles_.push_back(tileOf(part));
-            std::fill_n(tileOf_.begin() + part.firstTriangle, part.triangleCount, at->second);
+            std::fill_n(tileOf_.begin() + part.firstTriangle, part.triangleCount, entry->second);
         }
         if (!std::count(tileOf_.begin(), tileOf_.end(), -1)) return;
         std::replace(tileOf_.begin(), tileOf_.end(), -1, int(tiles_.size()));
@@ -159,17 +159,17 @@ class Gathering {
 
     bool fits(const std::vector<Tile*>& order) {
         const int around = order.size() > 1 ? gutter : 0;
-        glm::ivec2 at(0);
+        glm::ivec2 corner(0);
         int rowHeight = 0;
         for (Tile* tile : order) {
             const glm::ivec2 needed = tile->size + 2 * around;
             if (needed.x > width_) return false;
-            if (at.x + needed.x > width_) at = {0, at.y + rowHeight}, rowHeight = 0;
-            tile->place = at + around;
-            at.x += needed.x;
+            if (corner.x + needed.x > width_) corner = {0, corner.y + rowHeight}, rowHeight = 0;
+            tile->place = corner + around;
+            corner.x += needed.x;
             rowHeight = std::max(rowHeight, needed.y);
         }
-        height_ = at.y + rowHeight;
+        height_ = corner.y + rowHeight;
         return height_ <= std::min(2 * width_, mostTexels);
     }
 
@@ -186,8 +186,8 @@ class Gathering {
         return out;
     }
 
-    // `at`: in the tile, from its upper left; beyond 0 to 1 in the gutter.
-    static void write(const Tile& tile, const glm::dvec2& at, uint8_t* texel) {
+    // `position`: in the tile, from its upper left; beyond 0 to 1 in the gutter.
+    static void write(const Tile& tile, const glm::dvec2& position, uint8_t* texel) {
         glm::dvec3 color = tile.color;
         if (tile.image) {
             // The mean of the texels that the tile's own covers.
@@ -195,7 +195,7 @@ class Gathering {
             const glm::ivec2 size(image.width, image.height);
             const glm::dvec2 step = tile.repeats * glm::dvec2(size) / glm::dvec2(tile.size);
             const glm::ivec2 count = glm::max(glm::ivec2(glm::round(step)), glm::ivec2(1));
-            const glm::dvec2 corner = at * tile.repeats * glm::dvec2(size) - 0.5 * step;
+            const glm::dvec2 corner = position * tile.repeats * glm::dvec2(size) - 0.5 * step;
             glm::dvec3 sum(0);
             double alpha = 0;
             for (int j = 0; j < count.y; ++j)
@@ -223,8 +223,8 @@ class Gathering {
                 glm::dvec2& uv = mesh_.uvs[size_t(mesh_.triangles[t][corner])];
                 glm::dvec2 share = tile.image ? glm::clamp(uv / tile.repeats, 0.0, 1.0) : glm::dvec2(0.5);
                 share.y = 1 - share.y;
-                const glm::dvec2 at = (glm::dvec2(tile.place) + share * glm::dvec2(tile.size)) / whole;
-                uv = {at.x, 1 - at.y};
+                const glm::dvec2 position = (glm::dvec2(tile.place) + share * glm::dvec2(tile.size)) / whole;
+                uv = {position.x, 1 - position.y};
             }
         }
     }

@@ -17,12 +17,12 @@ constexpr double crease = 0.766;  // cosine of 40 degrees, as in skinNormals()
 // Corners of the file that look alike are one vertex.
 SkinMesh joined(const Mesh& mesh) {
     SkinMesh out;
-    std::vector<std::vector<size_t>> at(mesh.weldedPositions.size());
+    std::vector<std::vector<size_t>> verticesAt(mesh.weldedPositions.size());
     std::vector<glm::dvec3> normals;
     std::vector<int> numbers;
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::dvec2 uv = mesh.uvs.empty() ? glm::dvec2(0) : mesh.uvs[v];
-        std::vector<size_t>& here = at[size_t(mesh.weld[v])];
+        std::vector<size_t>& here = verticesAt[size_t(mesh.weld[v])];
         const auto same = [&](size_t s) {
             return glm::distance(out.uvs[s], uv) < 1e-6 && glm::dot(normals[s], mesh.normals[v]) > crease;
         };

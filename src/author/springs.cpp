@@ -227,17 +227,17 @@ Bracing brace(Molecule m, const Inside* inside) {
     constexpr double wanted = 2e-4, gain = 1.2;
     constexpr size_t mostVertices = 100, most = 24;
     if (out.left > 0 || m.vertices.size() > mostVertices) return out;
-    Softest now = softest(m);
-    for (size_t i = 0; i < std::min(most, m.vertices.size() / 2) && now.value < wanted; ++i) {
-        const Pair pair = finder.find(now.motion);
+    Softest current = softest(m);
+    for (size_t i = 0; i < std::min(most, m.vertices.size() / 2) && current.value < wanted; ++i) {
+        const Pair pair = finder.find(current.motion);
         if (pair.first < 0) break;
         add(pair);
-        const Softest then = softest(m);
-        if (then.value < gain * now.value) {
+        const Softest next = softest(m);
+        if (next.value < gain * current.value) {
             out.added.pop_back();
             break;
         }
-        now = then;
+        current = next;
     }
     return out;
 }

@@ -210,11 +210,11 @@ struct Baseline::Data {
 
     size_t blockFloats() const { return size_t(6 * vertexCount + 3) * size_t(kernels->lanes); }
     // Returns component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
-    float& at(int molecule, int vertex, int component) {
+    float& value(int molecule, int vertex, int component) {
         if (!kernels) {
             if (vertex == vertexCount) return scalar.anchors[size_t(molecule)][component];
-            ScalarVertex& one = scalar.vertices[size_t(molecule) * size_t(vertexCount) + size_t(vertex)];
-            return component < 3 ? one.position[component] : one.velocity[component - 3];
+            ScalarVertex& state = scalar.vertices[size_t(molecule) * size_t(vertexCount) + size_t(vertex)];
+            return component < 3 ? state.position[component] : state.velocity[component - 3];
         }
         const int lanes = kernels->lanes;
         return blocks.data()[size_t(molecule / lanes) * blockFloats() +
@@ -256,12 +256,12 @@ void Baseline::set(std::span<const vec3> positions, std::span<const vec3> veloci
         const vec3 anchor = latticePoint(positions[first(m)]);
         for (int i = 0; i < d.vertexCount; ++i) {
             for (int k = 0; k < 3; ++k) {
-                d.at(place, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
-                d.at(place, i, 3 + k) = velocities[first(m) + size_t(i)][k];
+                d.value(place, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
+                d.value(place, i, 3 + k) = velocities[first(m) + size_t(i)][k];
             }
         }
         for (int k = 0; k < 3; ++k)
-            d.at(place, d.vertexCount, k) = anchor[k];
+            d.value(place, d.vertexCount, k) = anchor[k];
     }
 }
 
@@ -272,9 +272,9 @@ void Baseline::get(std::vector<vec3>& positions, std::vector<vec3>& velocities) 
     const int anchor = d.vertexCount;
     for (int m = 0; m < d.count; ++m) {
         for (int i = 0; i < d.vertexCount; ++i) {
-            positions.push_back(vec3(d.at(m, anchor, 0), d.at(m, anchor, 1), d.at(m, anchor, 2)) +
-                                vec3(d.at(m, i, 0), d.at(m, i, 1), d.at(m, i, 2)));
-            velocities.emplace_back(d.at(m, i, 3), d.at(m, i, 4), d.at(m, i, 5));
+            positions.push_back(vec3(d.value(m, anchor, 0), d.value(m, anchor, 1), d.value(m, anchor, 2)) +
+                                vec3(d.value(m, i, 0), d.value(m, i, 1), d.value(m, i, 2)));
+            velocities.emplace_back(d.value(m, i, 3), d.value(m, i, 4), d.value(m, i, 5));
         }
     }
 }

@@ -35,16 +35,16 @@ struct V256 {
     SHOAL_INLINE static V256 inverse(V256 a) { return {_mm256_div_ps(_mm256_set1_ps(1), a.v)}; }
 
     SHOAL_INLINE static Mask less(V256 a, V256 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
-    SHOAL_INLINE static Mask both(Mask a, Mask b) { return {_mm256_and_ps(a.m, b.m)}; }
-    SHOAL_INLINE static Mask either(Mask a, Mask b) { return {_mm256_or_ps(a.m, b.m)}; }
-    SHOAL_INLINE static Mask no(Mask a) {
+    SHOAL_INLINE static Mask maskAnd(Mask a, Mask b) { return {_mm256_and_ps(a.m, b.m)}; }
+    SHOAL_INLINE static Mask maskOr(Mask a, Mask b) { return {_mm256_or_ps(a.m, b.m)}; }
+    SHOAL_INLINE static Mask maskNot(Mask a) {
         return {_mm256_xor_ps(a.m, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))};
     }
     SHOAL_INLINE static bool any(Mask a) { return _mm256_movemask_ps(a.m) != 0; }
     SHOAL_INLINE static V256 select(Mask m, V256 a, V256 b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
 
-    SHOAL_INLINE static V256 gather(const float* p, V256 at) {
-        return {_mm256_i32gather_ps(p, _mm256_cvtps_epi32(at.v), 4)};
+    SHOAL_INLINE static V256 gather(const float* p, V256 indices) {
+        return {_mm256_i32gather_ps(p, _mm256_cvtps_epi32(indices.v), 4)};
     }
     SHOAL_INLINE static void leave() { _mm256_zeroupper(); }
 };

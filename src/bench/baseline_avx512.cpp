@@ -44,14 +44,14 @@ struct V512 {
     }
 
     SHOAL_INLINE static Mask less(V512 a, V512 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
-    SHOAL_INLINE static Mask both(Mask a, Mask b) { return _kand_mask16(a, b); }
-    SHOAL_INLINE static Mask either(Mask a, Mask b) { return _kor_mask16(a, b); }
-    SHOAL_INLINE static Mask no(Mask a) { return _knot_mask16(a); }
+    SHOAL_INLINE static Mask maskAnd(Mask a, Mask b) { return _kand_mask16(a, b); }
+    SHOAL_INLINE static Mask maskOr(Mask a, Mask b) { return _kor_mask16(a, b); }
+    SHOAL_INLINE static Mask maskNot(Mask a) { return _knot_mask16(a); }
     SHOAL_INLINE static bool any(Mask a) { return a != 0; }
     SHOAL_INLINE static V512 select(Mask m, V512 a, V512 b) { return {_mm512_mask_blend_ps(m, b.v, a.v)}; }
 
-    SHOAL_INLINE static V512 gather(const float* p, V512 at) {
-        return {_mm512_i32gather_ps(_mm512_cvtps_epi32(at.v), p, 4)};
+    SHOAL_INLINE static V512 gather(const float* p, V512 indices) {
+        return {_mm512_i32gather_ps(_mm512_cvtps_epi32(indices.v), p, 4)};
     }
     SHOAL_INLINE static void leave() { _mm256_zeroupper(); }
 };

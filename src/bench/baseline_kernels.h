@@ -95,8 +95,8 @@ struct Fish {
 template <class Topology>
 consteval bool repeats() {
     for (int s = Topology::period; s < Topology::repeats * Topology::period; ++s) {
-        const SpringEnds one = Topology::ends[s - Topology::period], next = Topology::ends[s];
-        if (next.a != one.a + Topology::shift || next.b != one.b + Topology::shift) return false;
+        const SpringEnds previous = Topology::ends[s - Topology::period], next = Topology::ends[s];
+        if (next.a != previous.a + Topology::shift || next.b != previous.b + Topology::shift) return false;
     }
     return true;
 }

@@ -6,7 +6,7 @@
 //   broadcast(const float*), load(const float*), store(float*, V)
 //   fma(a, b, c) = a b + c, fnma = c - a b, fms = a b - c
 //   minimum, maximum, absolute, floored (nearest lower integer), inverse, inverseRoot
-//   less(a, b) -> Mask, both, either, no(Mask), any(Mask), select(Mask, ifSo, ifNot)
+//   less(a, b) -> Mask, maskAnd, maskOr, maskNot(Mask), any(Mask), select(Mask, ifSo, ifNot)
 //   gather(const float*, V): at whole numbers
 //   leave(): what the processor wants before narrower code goes on
 #pragma once
@@ -133,19 +133,19 @@ SHOAL_INLINE void respond(V3<V>& x, V3<V>& v, const V3<V>& before, V distance, c
     const V kickTime = V::fnma(h, V::broadcast(&step.decay), h);  // of the springs, at the substep's end
     const V3<V> acceleration = plus(gravity, v - relaxed(before, step), V::inverse(kickTime));
     const V depth = zero - distance, vn = dot(v, n), gn = dot(acceleration, n);
-    const Mask below = V::less(distance, zero), inwards = V::both(below, V::less(vn, zero));
+    const Mask below = V::less(distance, zero), inwards = V::maskAnd(below, V::less(vn, zero));
 
     const V synchronised = V::fma(gn * half, h, vn);
     const V energy = V::maximum(V::fma(synchronised, synchronised, (gn + gn) * depth), zero);
     const V restitution = V::broadcast(&step.restitution), least = half * V::absolute(gn) * h;
-    Mask bounces = V::both(inwards, V::less(least * least, restitution * restitution * energy));
+    Mask bounces = V::maskAnd(inwards, V::less(least * least, restitution * restitution * energy));
     V newNormal = zero, height = zero, frictionTime = h, normalChange = zero - vn;
     if (V::any(bounces)) {
         const V impact = energy * V::inverseRoot(V::maximum(energy, tiny));
         const V pace = V::maximum(half * (impact - synchronised), constant<V>(1e-20f));
         const V since = V::minimum(depth * V::inverse(pace), h);
         const V rebound = restitution * impact, leaving = V::fma(half * gn, since, rebound);
-        bounces = V::both(bounces, V::less(zero, leaving));
+        bounces = V::maskAnd(bounces, V::less(zero, leaving));
         newNormal = V::select(bounces, V::fma(gn, since - half * h, rebound), newNormal);
         height = V::select(bounces, leaving * since, height);
         frictionTime = V::select(bounces, since, frictionTime);
@@ -160,8 +160,8 @@ SHOAL_INLINE void respond(V3<V>& x, V3<V>& v, const V3<V>& before, V distance, c
     const V3<V> lost{tangential.x * share, tangential.y * share, tangential.z * share};
     const V started = V::fnma(vn, h, distance);
     const V slack = V::minimum(constant<V>(1e-6f), constant<V>(-0.02f) * vn * h);
-    const Mask rests =
-        V::both(V::no(V::either(bounces, V::less(most, speed))), V::less(V::absolute(started), slack));
+    const Mask rests = V::maskAnd(V::maskNot(V::maskOr(bounces, V::less(most, speed))),
+                                  V::less(V::absolute(started), slack));
 
     const V3<V> surface = plus(x, n, depth), still{zero, zero, zero};
     const V3<V> position = select(rests, minus(x, v, h), minus(plus(surface, n, height), lost, frictionTime));
@@ -302,9 +302,10 @@ void runAny(float* blocks, int count, const KernelStep& step, float* next) {
             }
             for (int s = 0; s < step.springs; ++s) {
                 const int i = step.ends[2 * s], j = step.ends[2 * s + 1];
-                const float *const one = blocks + 6 * i * V::lanes, *const other = blocks + 6 * j * V::lanes;
-                const V3<V> d = load3<V>(one) - load3<V>(other);
-                const V3<V> w = load3<V>(one + 3 * V::lanes) - load3<V>(other + 3 * V::lanes);
+                const float* const first = blocks + 6 * i * V::lanes;
+                const float* const other = blocks + 6 * j * V::lanes;
+                const V3<V> d = load3<V>(first) - load3<V>(other);
+                const V3<V> w = load3<V>(first + 3 * V::lanes) - load3<V>(other + 3 * V::lanes);
                 const V factor = springFactor(d, w, step.constants[s]);
                 float *const nextOne = next + 3 * i * V::lanes, *const nextOther = next + 3 * j * V::lanes;
                 store3(nextOne, plus(load3<V>(nextOne), d, V::broadcast(&step.kick[i]) * factor));
@@ -335,24 +336,24 @@ SHOAL_INLINE void landParticles(V& x, V& y, V& z, V& vx, V& vy, V& vz, const Par
     const auto all = [](const float& value) SHOAL_BODY { return V::broadcast(&value); };
     if (!V::any(V::less(y, all(step.highest)))) return;
     const float none = 0, whole = 1;
-    const V zero = all(none), one = all(whole);
+    const V zero = all(none), unit = all(whole);
     const V px = (x - all(step.low[0])) * all(step.perMetre[0]);
     const V pz = (z - all(step.low[1])) * all(step.perMetre[1]);
-    const V cellX = V::floored(V::minimum(V::maximum(px, zero), all(step.last[0]) - one));
-    const V cellZ = V::floored(V::minimum(V::maximum(pz, zero), all(step.last[1]) - one));
+    const V cellX = V::floored(V::minimum(V::maximum(px, zero), all(step.last[0]) - unit));
+    const V cellZ = V::floored(V::minimum(V::maximum(pz, zero), all(step.last[1]) - unit));
     const V fx = px - cellX, fz = pz - cellZ;
-    const V at = V::fma(cellZ, all(step.columns), cellX), next = at + all(step.columns);
-    const V near = V::gather(step.heights, at), right = V::gather(step.heights, at + one);
-    const V far = V::gather(step.heights, next), across = V::gather(step.heights, next + one);
+    const V index = V::fma(cellZ, all(step.columns), cellX), next = index + all(step.columns);
+    const V near = V::gather(step.heights, index), right = V::gather(step.heights, index + unit);
+    const V far = V::gather(step.heights, next), across = V::gather(step.heights, next + unit);
     const V nearRow = V::fma(right - near, fx, near), farRow = V::fma(across - far, fx, far);
     const V height = V::fma(farRow - nearRow, fz, nearRow);
     const V slopeX = V::fma((across - far) - (right - near), fz, right - near) * all(step.perMetre[0]);
     const V slopeZ = (farRow - nearRow) * all(step.perMetre[1]);
-    const V squared = V::fma(slopeX, slopeX, V::fma(slopeZ, slopeZ, one));
+    const V squared = V::fma(slopeX, slopeX, V::fma(slopeZ, slopeZ, unit));
     const V ny = V::inverseRoot(squared), nx = zero - slopeX * ny, nz = zero - slopeZ * ny;
     const V depth = (height - y) * ny;
-    Mask below = V::both(V::less(zero, depth), V::both(V::less(zero, px), V::less(zero, pz)));
-    below = V::both(below, V::both(V::less(px, all(step.last[0])), V::less(pz, all(step.last[1]))));
+    Mask below = V::maskAnd(V::less(zero, depth), V::maskAnd(V::less(zero, px), V::less(zero, pz)));
+    below = V::maskAnd(below, V::maskAnd(V::less(px, all(step.last[0])), V::less(pz, all(step.last[1]))));
     if (!V::any(below)) return;
     const V vn = V::fma(vx, nx, V::fma(vy, ny, vz * nz));
     const V back = zero - V::minimum(vn, zero) * all(step.restitution) + V::maximum(vn, zero);

@@ -20,9 +20,9 @@ class FrameEntrant {
     FrameEntrant(BenchResult& result, const Molecule& molecule, const BenchStart& start,
                  const BenchDevice& device)
         : result_(result),
-          runner_(makeRunner(result.one, molecule, start, device)),
+          runner_(makeRunner(result.benchCase, molecule, start, device)),
           context_(*device.context),
-          ownTimes_(device.ownTimes && isOnDevice(result.one.subject)) {
+          ownTimes_(device.ownTimes && isOnDevice(result.benchCase.subject)) {
         result.stateBytes = runner_->stateBytes;
         result.movedBytes = runner_->movedBytes;
         result.operations = runner_->operations;
@@ -105,13 +105,14 @@ class FrameEntrant {
 std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,
                                       const BenchDevice& device, const measure::Schedule& schedule,
                                       const BenchProgress& progress) {
-    const Molecule& molecule = molecules.of(cases.front().molecule);
+    const Molecule& molecule = molecules.named(cases.front().molecule);
     const BenchStart start(cases.front(), molecule, device.cores);
     std::vector<BenchResult> out;
     out.reserve(cases.size());
-    for (const BenchCase& one : cases)
-        out.push_back(
-            {.one = one, .leftOut = reasonToLeaveOut(one, molecule, device), .mayFail = device.goesOn});
+    for (const BenchCase& benchCase : cases)
+        out.push_back({.benchCase = benchCase,
+                       .leftOut = reasonToLeaveOut(benchCase, molecule, device),
+                       .mayFail = device.goesOn});
     measureInTurn(out, schedule, progress, [&](BenchResult& result) {
         return std::make_unique<FrameEntrant>(result, molecule, start, device);
     });

@@ -27,7 +27,7 @@
 namespace shoal::bench {
 
 struct BenchResult {
-    BenchCase one;
+    BenchCase benchCase;
     std::string leftOut = {};    // why it was not measured; empty: it was
     std::string failed = {};     // the words of an error, where BenchDevice::goesOn; empty: none
     bool mayFail = false;        // BenchDevice::goesOn
@@ -39,7 +39,7 @@ struct BenchResult {
     double operations = 0;                  // BenchRunner's
     double busStateBytes = 0;               // a frame: state that crossed the bus
     Lanes lanes = Lanes::automatic;
-    double perMolecule() const { return frame.min / one.count; }  // s, by the shortest
+    double perMolecule() const { return frame.min / benchCase.count; }  // s, by the shortest
 };
 
 // Reports the share of the work that is done, in [0, 1].
@@ -54,9 +54,9 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
 template <typename Case>
 std::vector<std::vector<Case>> byGroup(const std::vector<Case>& cases) {
     std::vector<std::vector<Case>> out;
-    for (const Case& one : cases) {
-        if (out.empty() || out.back().front().group != one.group) out.emplace_back();
-        out.back().push_back(one);
+    for (const Case& benchCase : cases) {
+        if (out.empty() || out.back().front().group != benchCase.group) out.emplace_back();
+        out.back().push_back(benchCase);
     }
     return out;
 }
@@ -204,14 +204,14 @@ struct SchoolCase {
 constexpr double schoolDensity = 100;  // fish a m^3
 
 std::vector<SchoolCase> schoolCases(bool quick, bool software);
-Scene schoolScene(const SchoolCase& one, const Molecule& fry);
+Scene schoolScene(const SchoolCase& schoolCase, const Molecule& fry);
 
 struct SchoolTimes {
-    SchoolCase one;
-    std::string leftOut = {};                                 // why it was not measured; empty: it was
-    measure::Spread frame = {};                               // s, wall time
-    measure::Spread device = {};                              // s, as BenchResult's
-    double perFish() const { return frame.min / one.count; }  // s
+    SchoolCase benchCase;
+    std::string leftOut = {};                                       // why it was not measured; empty: it was
+    measure::Spread frame = {};                                     // s, wall time
+    measure::Spread device = {};                                    // s, as BenchResult's
+    double perFish() const { return frame.min / benchCase.count; }  // s
 };
 
 // A case that the device has no memory for is left out. Error: the driver refuses a shader.

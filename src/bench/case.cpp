@@ -13,15 +13,15 @@ namespace shoal::bench {
 
 namespace {
 
-void add(std::vector<BenchCase>& out, BenchCase one, const std::string& label) {
-    one.label = label;
-    out.push_back(std::move(one));
+void add(std::vector<BenchCase>& out, BenchCase benchCase, const std::string& label) {
+    benchCase.label = label;
+    out.push_back(std::move(benchCase));
 }
 
-void addBaselines(std::vector<BenchCase>& out, BenchCase one) {
+void addBaselines(std::vector<BenchCase>& out, BenchCase benchCase) {
     for (const Subject subject : {Subject::avx512, Subject::avx2, Subject::scalar}) {
-        one.subject = subject;
-        add(out, one, name(subject));
+        benchCase.subject = subject;
+        add(out, benchCase, name(subject));
     }
 }
 
@@ -35,83 +35,83 @@ BenchCase grouped(const char* molecule, const char* many, int count) {
 
 // One size of one molecule on everything that can run it.
 void addSize(std::vector<BenchCase>& out, const BenchCase& base, bool pictures) {
-    BenchCase one = base;
-    add(out, one, "fused");
-    one.inPlace = true;
-    add(out, one, "fused, in place");
-    one = base;
+    BenchCase benchCase = base;
+    add(out, benchCase, "fused");
+    benchCase.inPlace = true;
+    add(out, benchCase, "fused, in place");
+    benchCase = base;
     for (const Subject subject : {Subject::fragments, Subject::pingPong}) {
-        one.subject = subject;
-        add(out, one, name(subject));
+        benchCase.subject = subject;
+        add(out, benchCase, name(subject));
     }
     addBaselines(out, base);
-    one = base;
-    one.drawn = pictures;
+    benchCase = base;
+    benchCase.drawn = pictures;
     if (pictures) {
         for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong}) {
-            one.subject = subject;
-            add(out, one, concat(name(subject), ", drawn"));
+            benchCase.subject = subject;
+            add(out, benchCase, concat(name(subject), ", drawn"));
         }
     }
-    one = base;
+    benchCase = base;
     for (const Subject subject : {Subject::bufferCopy, Subject::kernelCopy, Subject::memoryCopy}) {
-        one.subject = subject;
-        add(out, one, name(subject));
+        benchCase.subject = subject;
+        add(out, benchCase, name(subject));
     }
 }
 
 void addLeapfrog(std::vector<BenchCase>& out, const BenchCase& base) {
-    BenchCase one = base;
-    one.solver = SolverKind::leapfrog;
+    BenchCase benchCase = base;
+    benchCase.solver = SolverKind::leapfrog;
     for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong}) {
-        one.subject = subject;
-        add(out, one, concat(name(subject), ", leapfrog"));
+        benchCase.subject = subject;
+        add(out, benchCase, concat(name(subject), ", leapfrog"));
     }
 }
 
 void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
-    BenchCase one = base;
-    one.substeps = 16;
+    BenchCase benchCase = base;
+    benchCase.substeps = 16;
     for (const Subject subject : {Subject::fused, Subject::avx512, Subject::avx2}) {
-        one.subject = subject;
-        add(out, one, std::string(name(subject)) + ", 16 substeps");
+        benchCase.subject = subject;
+        add(out, benchCase, std::string(name(subject)) + ", 16 substeps");
     }
-    one = base;
-    one.subject = Subject::multiplyAdd;
-    add(out, one, name(one.subject));
+    benchCase = base;
+    benchCase.subject = Subject::multiplyAdd;
+    add(out, benchCase, name(benchCase.subject));
 }
 
 void addSamplings(std::vector<BenchCase>& out, int count) {
-    BenchCase one = grouped("quad", "quads in wind", count);
+    BenchCase benchCase = grouped("quad", "quads in wind", count);
     for (const Wind wind : {Wind::uniform, Wind::gusts}) {
-        one.wind = wind;
+        benchCase.wind = wind;
         const std::string what = name(wind);
-        one.subject = Subject::fused;
+        benchCase.subject = Subject::fused;
         for (const FieldSampling sampling : measure::allSamplings) {
-            one.sampling = sampling;
-            add(out, one, "fused, " + what + ", " + shoal::name(sampling));
+            benchCase.sampling = sampling;
+            add(out, benchCase, "fused, " + what + ", " + shoal::name(sampling));
         }
-        one.sampling = FieldSampling::vertexSubstep;
-        one.subject = Subject::pingPong;
-        add(out, one, "ping-pong, " + what + ", " + shoal::name(one.sampling));
+        benchCase.sampling = FieldSampling::vertexSubstep;
+        benchCase.subject = Subject::pingPong;
+        add(out, benchCase, "ping-pong, " + what + ", " + shoal::name(benchCase.sampling));
     }
-    one.solver = SolverKind::leapfrog;
-    one.subject = Subject::fused;
+    benchCase.solver = SolverKind::leapfrog;
+    benchCase.subject = Subject::fused;
     for (const FieldSampling sampling : measure::allSamplings) {
-        one.sampling = sampling;
-        add(out, one, std::string("fused, leapfrog, gusts, ") + shoal::name(sampling));
+        benchCase.sampling = sampling;
+        add(out, benchCase, std::string("fused, leapfrog, gusts, ") + shoal::name(sampling));
     }
 }
 
 // Large molecules: how a molecule is spread over the device.
 void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* many, int count) {
-    BenchCase one = grouped(molecule, many, count);
+    BenchCase benchCase = grouped(molecule, many, count);
     for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
-        one.lanes = lanes;
-        add(out, one, std::string("fused, a lane a ") + shoal::name(lanes));
+        benchCase.lanes = lanes;
+        add(out, benchCase, std::string("fused, a lane a ") + shoal::name(lanes));
     }
-    one.lanes = Lanes::automatic;
-    addBaselines(out, one);
+    benchCase.lanes = Lanes::automatic;
+    addBaselines(out, benchCase);
 }
 
 }  // namespace
@@ -158,8 +158,8 @@ Simd simdOf(Subject subject) {
 
 std::string grouped(int count) {
     std::string out = std::to_string(count);
-    for (int at = int(out.size()) - 3; at > 0; at -= 3)
-        out.insert(size_t(at), ",");
+    for (int position = int(out.size()) - 3; position > 0; position -= 3)
+        out.insert(size_t(position), ",");
     return out;
 }
 
@@ -196,7 +196,7 @@ BenchMolecules::BenchMolecules(const std::string& folder)
       fish(readMolecule(folder + "/fish.json")),
       cloth(bench::cloth(8)) {}
 
-const Molecule& BenchMolecules::of(const std::string& name) const {
+const Molecule& BenchMolecules::named(const std::string& name) const {
     if (name == "quad") return quad;
     if (name == "cross") return cross;
     if (name == "fish") return fish;
@@ -207,14 +207,14 @@ const Molecule& BenchMolecules::of(const std::string& name) const {
 Molecule cloth(int side) {
     Molecule out;
     out.name = "cloth";
-    const auto at = [side](int row, int column) { return row * side + column; };
+    const auto vertexAt = [side](int row, int column) { return row * side + column; };
     const auto spring = [&](int a, int b) {
-        Spring one;
-        one.a = a;
-        one.b = b;
-        one.stiffness = 10;
-        one.damping = 0.002;
-        out.springs.push_back(one);
+        Spring added;
+        added.a = a;
+        added.b = b;
+        added.stiffness = 10;
+        added.damping = 0.002;
+        out.springs.push_back(added);
     };
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
@@ -223,26 +223,28 @@ Molecule cloth(int side) {
             vertex.mass = 0.01;
             out.vertices.push_back(vertex);
             const bool right = column + 1 < side, down = row + 1 < side;
-            if (right) spring(at(row, column), at(row, column + 1));
-            if (down) spring(at(row, column), at(row + 1, column));
+            if (right) spring(vertexAt(row, column), vertexAt(row, column + 1));
+            if (down) spring(vertexAt(row, column), vertexAt(row + 1, column));
             if (!right || !down) continue;
-            spring(at(row, column), at(row + 1, column + 1));
-            spring(at(row, column + 1), at(row + 1, column));
-            out.triangles.push_back({at(row, column), at(row + 1, column), at(row, column + 1)});
-            out.triangles.push_back({at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
+            spring(vertexAt(row, column), vertexAt(row + 1, column + 1));
+            spring(vertexAt(row, column + 1), vertexAt(row + 1, column));
+            out.triangles.push_back(
+                {vertexAt(row, column), vertexAt(row + 1, column), vertexAt(row, column + 1)});
+            out.triangles.push_back(
+                {vertexAt(row, column + 1), vertexAt(row + 1, column), vertexAt(row + 1, column + 1)});
         }
     }
     return out;
 }
 
-Scene benchScene(const BenchCase& one, const Molecule& molecule) {
+Scene benchScene(const BenchCase& benchCase, const Molecule& molecule) {
     Scene scene;
-    scene.name = one.name();
+    scene.name = benchCase.name();
     scene.gravity = {0, -9.81, 0};
-    scene.solver.kind = one.solver;
-    scene.solver.substeps = one.substeps;
-    scene.solver.fieldSampling = one.sampling;
-    if (one.wind == Wind::uniform) {
+    scene.solver.kind = benchCase.solver;
+    scene.solver.substeps = benchCase.substeps;
+    scene.solver.fieldSampling = benchCase.sampling;
+    if (benchCase.wind == Wind::uniform) {
         scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
     } else {
         GustField gust;
@@ -255,9 +257,9 @@ Scene benchScene(const BenchCase& one, const Molecule& molecule) {
     }
     scene.colliders.emplace_back();  // a plane, y = 0
     Group group;
-    group.name = one.molecule;
+    group.name = benchCase.molecule;
     group.molecule = molecule;
-    group.count = one.count;
+    group.count = benchCase.count;
     group.place.box = {{-20, 0.2, -20}, {20, 6, 20}};
     group.place.turn = Placement::Turn::any;
     group.drag = {1, 1};

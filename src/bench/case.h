@@ -71,11 +71,11 @@ struct BenchMolecules {
     Molecule quad, cross, fish, cloth;
 
     explicit BenchMolecules(const std::string& folder);  // Error: a file is missing
-    const Molecule& of(const std::string& name) const;
+    const Molecule& named(const std::string& name) const;
 };
 Molecule cloth(int side);
 
-Scene benchScene(const BenchCase& one, const Molecule& molecule);
+Scene benchScene(const BenchCase& benchCase, const Molecule& molecule);
 // Returns the step of the baseline in a scene of benchScene().
 BaselineStep baselineStep(const Scene& scene);
 

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double contactTime = 1.0 / 120;  // s: a frame is one contact step of two substeps
 
-Scene sceneOf(const ContactCase& one, const Molecule& quad, bool contact) {
+Scene sceneOf(const ContactCase& contactCase, const Molecule& quad, bool contact) {
     Scene scene;
-    scene.name = concat(one.quads, " quads");
+    scene.name = concat(contactCase.quads, " quads");
     scene.frameRate = 1 / contactTime;
     scene.gravity = {0, -9.81, 0};
     scene.solver.kind = SolverKind::leapfrog;
@@ -29,9 +29,9 @@ Scene sceneOf(const ContactCase& one, const Molecule& quad, bool contact) {
     Group group;
     group.name = "quads";
     group.molecule = quad;
-    group.count = one.quads;
+    group.count = contactCase.quads;
     group.held = false;
-    const double half = std::cbrt(one.room * one.quads) / 2;
+    const double half = std::cbrt(contactCase.room * contactCase.quads) / 2;
     group.place.box = {glm::dvec3(-half), glm::dvec3(half)};
     group.place.turn = Placement::Turn::any;
     group.drag = {1, 1};
@@ -41,8 +41,8 @@ Scene sceneOf(const ContactCase& one, const Molecule& quad, bool contact) {
 }
 
 // Quads fly about as leaves do in gusts.
-Plan planOf(const ContactCase& one, const Molecule& quad, bool contact) {
-    Plan plan = compile(sceneOf(one, quad, contact));
+Plan planOf(const ContactCase& contactCase, const Molecule& quad, bool contact) {
+    Plan plan = compile(sceneOf(contactCase, quad, contact));
     std::mt19937 random(3);
     std::uniform_real_distribution<float> speed(-1, 1);
     GroupState& start = plan.groups[0].start;
@@ -58,9 +58,9 @@ class ContactEntrant {
   public:
     ContactEntrant(ContactTimes& result, const Molecule& quad, const BenchDevice& device)
         : result_(result),
-          contact_(*device.context, planOf(result.one, quad, true), options()),
-          plain_(*device.context, planOf(result.one, quad, false), options()),
-          baseline_(weightsOf(quad), result.one.quads, float(ContactCase::radius), device.cores) {
+          contact_(*device.context, planOf(result.benchCase, quad, true), options()),
+          plain_(*device.context, planOf(result.benchCase, quad, false), options()),
+          baseline_(weightsOf(quad), result.benchCase.quads, float(ContactCase::radius), device.cores) {
         const Plan& plan = contact_.plan();
         result.spheres = size_t(plan.contact.spheres);
         result.bytes = contact_.contact()->bytes();
@@ -72,7 +72,7 @@ class ContactEntrant {
         plain_.frame();
         start_ = plain_.save().groups[0];
         if (device.ownTimes)
-            own_.emplace(*device.context, planOf(result.one, quad, true),
+            own_.emplace(*device.context, planOf(result.benchCase, quad, true),
                          options(gpu::PassTimers::Mode::query));
     }
 
@@ -87,7 +87,7 @@ class ContactEntrant {
         std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(),
                                       std::back_inserter(differ));
         if (differ.size() > 2 + found.size() / 100)
-            throw Error(concat("bench collide: of ", found.size(), " contacts of ", result_.one.quads,
+            throw Error(concat("bench collide: of ", found.size(), " contacts of ", result_.benchCase.quads,
                                " quads the baseline finds ", differ.size(), " otherwise"));
         seconds = measure::secondsOf([&] { visit(); });
         for (std::vector<double>& samples : samples_)
@@ -172,9 +172,9 @@ std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, 
                                          const BenchProgress& progress) {
     std::vector<ContactTimes> out;
     out.reserve(cases.size());
-    for (const ContactCase& one : cases)
-        out.push_back(
-            {.one = one, .leftOut = device.context->info().computeShaders ? "" : "needs OpenGL 4.3"});
+    for (const ContactCase& contactCase : cases)
+        out.push_back({.benchCase = contactCase,
+                       .leftOut = device.context->info().computeShaders ? "" : "needs OpenGL 4.3"});
     measureInTurn(out, schedule, progress,
                   [&](ContactTimes& times) { return std::make_unique<ContactEntrant>(times, quad, device); });
     device.context->checkErrors("bench collide");

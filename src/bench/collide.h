@@ -27,7 +27,7 @@ struct ContactCase {
 std::vector<ContactCase> contactCases(bool quick);
 
 struct ContactTimes {
-    ContactCase one;
+    ContactCase benchCase;
     std::string leftOut;  // why it was not measured; empty: it was
     size_t spheres = 0, contacts = 0;
     uint32_t dropped = 0;         // contacts that did not fit into a list
@@ -37,7 +37,7 @@ struct ContactTimes {
     measure::Spread grid = {}, search = {}, response = {}, contact = {};  // s; contact: all three
     measure::Spread baseline = {};                                        // s
     measure::Spread device = {};  // s, the device's own time of contact; no samples: a processor runs it
-    double perQuad() const { return contact.min / one.quads; }  // s, by the shortest
+    double perQuad() const { return contact.min / benchCase.quads; }  // s, by the shortest
     double ratio() const { return contact.min / baseline.min; }
 };
 

@@ -321,9 +321,10 @@ struct ContactBaseline::Data {
         if (contact.since > 0) return {other, false, vec3(0), contact.anchor, 0};
         // memory takes in a tenth of what an impulse has grown by, and not much more than a weight
         const float weight = motions[size_t(slot)].weight + motions[size_t(contact.other)].weight;
-        const float now = glm::length(contact.impulse), grown = std::max(now - contact.held, 0.0f);
+        const float magnitude = glm::length(contact.impulse),
+                    grown = std::max(magnitude - contact.held, 0.0f);
         const float most = std::min(contact.held + 0.1f * grown, 1.5f * contact.held + restSpeed / weight);
-        return {other, contact.sticks, contact.impulse * std::min(1.0f, most / std::max(now, 1e-30f)),
+        return {other, contact.sticks, contact.impulse * std::min(1.0f, most / std::max(magnitude, 1e-30f)),
                 contact.anchor, contact.apart};
     }
 };

@@ -54,8 +54,8 @@ Mismatch stateMismatch(const std::string& name, const Scene& scene, const Stored
         throw Error("the stored state has other groups");
     Mismatch out;
     for (size_t g = 0; g < state->groups.size(); ++g) {
-        const Mismatch one = mismatch(*simulation, state->groups[g], g);
-        if (out.worst.empty() || one.ofTolerance > out.ofTolerance) out = one;
+        const Mismatch found = mismatch(*simulation, state->groups[g], g);
+        if (out.worst.empty() || found.ofTolerance > out.ofTolerance) out = found;
     }
     return out;
 }
@@ -72,9 +72,9 @@ std::pair<double, double> difference(const GroupPlan& group, const Snapshot& a, 
         for (size_t i = m * vertices; lives && i < (m + 1) * vertices; ++i)
             most = std::max({most, glm::length(a.positions[i] - b.positions[i]) / group.size,
                              glm::length(a.velocities[i] - b.velocities[i]) * frame / group.size});
-        const bool otherwise =
+        const bool livesDiffer =
             (!a.alive.empty() && a.alive[m] != b.alive[m]) || a.released[m] != b.released[m];
-        differ += otherwise || !(most <= tolerated);
+        differ += livesDiffer || !(most <= tolerated);
         furthest = std::max(furthest, most);
     }
     return {double(differ) / std::max(1, group.count), furthest};
@@ -92,7 +92,7 @@ Mismatch agreement(const Scene& scene, const SimulationOptions& first, const Sim
         const GroupPlan& group = a->plan().groups[g];
         const auto [share, furthest] =
             difference(group, a->snapshot(g), b->snapshot(g), a->parameters.frameTime,
-                       a->plan().contact.of(g) ? apartInContact : apart);
+                       a->plan().contact.find(g) ? apartInContact : apart);
         if (!out.worst.empty() && share / exceptions < out.ofTolerance) continue;
         out = {share / exceptions,
                formatted("%s: %.1f %% of the molecules apart, the furthest by %.2g of its size",
@@ -252,8 +252,8 @@ Scene checkedScene(const std::string& file) {
 
 std::vector<std::pair<std::string, Scene>> solverScenes(const std::string& moleculeFolder) {
     std::vector<std::pair<std::string, Scene>> out;
-    for (const Solver& one : solvers())
-        out.emplace_back(concat("solver ", one.name), falling(moleculeFolder, "leaf", one.kind));
+    for (const Solver& solver : solvers())
+        out.emplace_back(concat("solver ", solver.name), falling(moleculeFolder, "leaf", solver.kind));
     return out;
 }
 

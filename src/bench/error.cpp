@@ -33,13 +33,13 @@ std::vector<BenchError> errorCases() {
 }
 
 Scene inTheAir(const BenchError& error, const Molecule& molecule, int count) {
-    BenchCase one;
-    one.molecule = molecule.name;
-    one.count = count;
-    one.solver = error.solver;
-    one.wind = error.wind;
-    one.sampling = error.sampling;
-    Scene scene = benchScene(one, molecule);
+    BenchCase benchCase;
+    benchCase.molecule = molecule.name;
+    benchCase.count = count;
+    benchCase.solver = error.solver;
+    benchCase.wind = error.wind;
+    benchCase.sampling = error.sampling;
+    Scene scene = benchScene(benchCase, molecule);
     scene.colliders.clear();
     scene.groups[0].spin = {3, -4, 2};  // makes the springs work
     return scene;
@@ -82,16 +82,16 @@ std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const Ben
     std::optional<Exact> exact[2];
     for (size_t i = 0; i < out.size(); ++i) {
         progress(double(i) / double(out.size()));
-        BenchError& one = out[i];
-        if (needsCompute(one.subject) && !device.context->info().computeShaders) continue;
-        const Scene scene = inTheAir(one, molecules.quad, count);
-        const SimulationOptions options{.drawn = false, .path = pathOf(one.subject)};
+        BenchError& error = out[i];
+        if (needsCompute(error.subject) && !device.context->info().computeShaders) continue;
+        const Scene scene = inTheAir(error, molecules.quad, count);
+        const SimulationOptions options{.drawn = false, .path = pathOf(error.subject)};
         Simulation simulation(*device.context, compile(scene), options);
-        std::optional<Exact>& solution = exact[size_t(one.wind)];
+        std::optional<Exact>& solution = exact[size_t(error.wind)];
         if (!solution) solution = solveAll(scene, simulation.snapshot(0), device.cores);
         for (int frame = 0; frame < int(std::lround(duration * scene.frameRate)); ++frame)
             simulation.frame();
-        one.relative = rms(simulation.snapshot(0), *solution, molecules.quad.size());
+        error.relative = rms(simulation.snapshot(0), *solution, molecules.quad.size());
     }
     return out;
 }

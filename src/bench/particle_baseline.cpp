@@ -33,10 +33,10 @@ struct V1 {
     static V1 floored(V1 a) { return {std::floor(a.v)}; }
     static V1 inverseRoot(V1 a) { return {1 / std::sqrt(a.v)}; }
     static bool less(V1 a, V1 b) { return a.v < b.v; }
-    static bool both(bool a, bool b) { return a && b; }
+    static bool maskAnd(bool a, bool b) { return a && b; }
     static bool any(bool a) { return a; }
     static V1 select(bool mask, V1 a, V1 b) { return mask ? a : b; }
-    static V1 gather(const float* p, V1 at) { return {p[size_t(at.v)]}; }
+    static V1 gather(const float* p, V1 indices) { return {p[size_t(indices.v)]}; }
     static void leave() {}
 };
 
@@ -46,7 +46,7 @@ struct alignas(64) Part {
     Part(size_t room_, uint32_t seed)
         : room(room_), stride((room_ + 15) / 16 * 16), random(seed), data(components * stride) {}
 
-    float* of(int component) const { return data.data() + size_t(component) * stride; }
+    float* array(int component) const { return data.data() + size_t(component) * stride; }
     float uniform() {  // in [0, 1), xorshift [Marsaglia 2003]
         random ^= random << 13;
         random ^= random >> 17;
@@ -54,7 +54,7 @@ struct alignas(64) Part {
         return float(random >> 8) * 0x1p-24f;
     }
     void letDie() {
-        const float *ages = of(age), *lives = of(life);
+        const float *ages = array(age), *lives = array(life);
         for (size_t i = 0; i < count;) {
             if (ages[i] < lives[i]) {
                 ++i;
@@ -62,7 +62,7 @@ struct alignas(64) Part {
             }
             --count;
             for (int c = 0; c < components; ++c)
-                of(c)[i] = of(c)[count];
+                array(c)[i] = array(c)[count];
         }
     }
     void spawn(int births, const ParticleStep& step) {
@@ -71,11 +71,11 @@ struct alignas(64) Part {
         for (int n = 0; n < births && count < room; ++n, ++count) {
             const float since = uniform() * float(step.h);
             for (int k = 0; k < 3; ++k) {
-                of(x + k)[count] = low[k] + size[k] * uniform() + velocity[k] * since;
-                of(vx + k)[count] = velocity[k];
+                array(x + k)[count] = low[k] + size[k] * uniform() + velocity[k] * since;
+                array(vx + k)[count] = velocity[k];
             }
-            of(age)[count] = since;
-            of(life)[count] = shortest + range * uniform();
+            array(age)[count] = since;
+            array(life)[count] = shortest + range * uniform();
         }
     }
 
@@ -139,11 +139,11 @@ void ParticleBaseline::set(std::span<const vec3> positions, std::span<const vec3
         part.count = std::min(part.room, positions.size() - next);
         for (size_t i = 0; i < part.count; ++i, ++next) {
             for (int k = 0; k < 3; ++k) {
-                part.of(Part::x + k)[i] = positions[next][k];
-                part.of(Part::vx + k)[i] = velocities[next][k];
+                part.array(Part::x + k)[i] = positions[next][k];
+                part.array(Part::vx + k)[i] = velocities[next][k];
             }
-            part.of(Part::age)[i] = 0;
-            part.of(Part::life)[i] = std::numeric_limits<float>::infinity();
+            part.array(Part::age)[i] = 0;
+            part.array(Part::life)[i] = std::numeric_limits<float>::infinity();
         }
     }
     EXPECTS(next == positions.size());
@@ -154,9 +154,9 @@ void ParticleBaseline::step(const ParticleStep& step) {
     const ParticleKernelStep constants = kernelStep(step);
     d.threads.run([&](int index) {
         Part& part = d.parts[size_t(index)];
-        float* const ages = step.births > 0 ? part.of(Part::age) : nullptr;
-        d.kernel({part.of(Part::x), part.of(Part::y), part.of(Part::z), part.of(Part::vx), part.of(Part::vy),
-                  part.of(Part::vz), ages},
+        float* const ages = step.births > 0 ? part.array(Part::age) : nullptr;
+        d.kernel({part.array(Part::x), part.array(Part::y), part.array(Part::z), part.array(Part::vx),
+                  part.array(Part::vy), part.array(Part::vz), ages},
                  int(part.count), constants);
         if (step.births == 0) return;
         part.letDie();
@@ -175,11 +175,11 @@ size_t ParticleBaseline::count() const {
 std::vector<ParticleBaseline::Particle> ParticleBaseline::get() const {
     std::vector<Particle> out;
     for (const Part& part : data_->parts) {
-        const auto at = [&](int component, size_t i) { return part.of(component)[i]; };
+        const auto value = [&](int component, size_t i) { return part.array(component)[i]; };
         for (size_t i = 0; i < part.count; ++i)
-            out.push_back({vec3(at(Part::x, i), at(Part::y, i), at(Part::z, i)),
-                           vec3(at(Part::vx, i), at(Part::vy, i), at(Part::vz, i)), at(Part::age, i),
-                           at(Part::life, i)});
+            out.push_back({vec3(value(Part::x, i), value(Part::y, i), value(Part::z, i)),
+                           vec3(value(Part::vx, i), value(Part::vy, i), value(Part::vz, i)),
+                           value(Part::age, i), value(Part::life, i)});
     }
     return out;
 }
@@ -188,7 +188,7 @@ std::vector<std::span<const float>> ParticleBaseline::positions() const {
     std::vector<std::span<const float>> out;
     for (const Part& part : data_->parts)
         for (const int component : {Part::x, Part::y, Part::z})
-            out.emplace_back(part.of(component), part.count);
+            out.emplace_back(part.array(component), part.count);
     return out;
 }
 

@@ -14,7 +14,7 @@ using What = ParticleCase::What;
 // UberFlow's table 2, frames a second at 512 x 512 and 1024 x 1024.
 struct Published {
     double middle, large;
-    double at(int side) const { return side == 512 ? middle : side == 1024 ? large : 0; }
+    double forSide(int side) const { return side == 512 ? middle : side == 1024 ? large : 0; }
 };
 constexpr Published motionOnly{320, 120}, heightField{96, 42}, sorted{8, 1.4}, contacts{31, 7}, onCpu{2, 0.4};
 
@@ -39,11 +39,11 @@ class Cases {
                 begin(concat(heights ? "share of a quad over a height field" : "share of a quad", ", ",
                              substeps, substeps == 1 ? " substep" : " substeps"));
                 for (const bool quads : {false, true}) {
-                    ParticleCase& one = add(quads ? "quads" : "points");
-                    one.quads = quads;
-                    one.heights = heights;
-                    one.substeps = substeps;
-                    one.frameRate = 120;  // stable for the quads
+                    ParticleCase& particleCase = add(quads ? "quads" : "points");
+                    particleCase.quads = quads;
+                    particleCase.heights = heights;
+                    particleCase.substeps = substeps;
+                    particleCase.frameRate = 120;  // stable for the quads
                 }
             }
         }
@@ -70,10 +70,11 @@ class Cases {
         std::vector<SolverKind> kinds = {SolverKind::leapfrog, SolverKind::euler};
         if (!heights) kinds.insert(kinds.end(), {SolverKind::verlet, SolverKind::rk4});
         for (const SolverKind kind : kinds) {
-            ParticleCase& one = add(concat("fused, ", name(kind)));
-            one.solver = kind;
-            one.path = Path::fused;
-            if (kind == SolverKind::euler) one.published = (heights ? heightField : motionOnly).at(side_);
+            ParticleCase& particleCase = add(concat("fused, ", name(kind)));
+            particleCase.solver = kind;
+            particleCase.path = Path::fused;
+            if (kind == SolverKind::euler)
+                particleCase.published = (heights ? heightField : motionOnly).forSide(side_);
         }
         ParticleCase& inPlace = add("fused, leapfrog, in place");
         inPlace.path = Path::fused;
@@ -89,22 +90,22 @@ class Cases {
         add("motion, radix sort").sort = SortMethod::radix;
         ParticleCase& bitonic = add("motion, bitonic sort");
         bitonic.sort = SortMethod::bitonic;
-        bitonic.published = sorted.at(side_);
+        bitonic.published = sorted.forSide(side_);
         ParticleCase& spread = add("motion, odd-even merge over 20 frames");
         spread.sort = SortMethod::oddEvenMerge;
         spread.spreadFrames = 20;
         ParticleCase& cpu = add("loop on the CPU, std::sort and upload");
         cpu.what = What::cpuLoop;
         cpu.sort = SortMethod::cpu;
-        cpu.published = onCpu.at(side_);
+        cpu.published = onCpu.forSide(side_);
     }
     void contact() {
         begin("contact");
         for (const Path path : {Path::fused, Path::fragments}) {
-            ParticleCase& one = add(concat(name(path), ", motion and contact"));
-            one.path = path;
-            one.contact = true;
-            one.published = contacts.at(side_);
+            ParticleCase& particleCase = add(concat(name(path), ", motion and contact"));
+            particleCase.path = path;
+            particleCase.contact = true;
+            particleCase.published = contacts.forSide(side_);
         }
     }
     void births(double turnover) {
@@ -113,9 +114,9 @@ class Cases {
         for (const Allocator allocator :
              {Allocator::gpu, Allocator::ring, Allocator::stack, Allocator::heap}) {
             for (const Path path : {Path::fused, Path::fragments}) {
-                ParticleCase& one = add(concat(name(path), ", allocator ", name(allocator)));
-                one.path = path;
-                one.allocator = allocator;
+                ParticleCase& particleCase = add(concat(name(path), ", allocator ", name(allocator)));
+                particleCase.path = path;
+                particleCase.allocator = allocator;
             }
         }
         loop();
@@ -147,16 +148,16 @@ std::vector<ParticleCase> particleCases(bool quick) {
     return out.all;
 }
 
-static void addBirths(const ParticleCase& one, Group& group) {
-    const double born = one.turnover * one.count(), frames = 1 / one.turnover;
+static void addBirths(const ParticleCase& particleCase, Group& group) {
+    const double born = particleCase.turnover * particleCase.count(), frames = 1 / particleCase.turnover;
     Lifecycle& life = group.life.emplace();
-    life.allocator = *one.allocator;
-    life.capacity = one.count() + one.count() / 4;
-    life.life = glm::dvec2(0.5, 1.5) * frames / one.frameRate;
+    life.allocator = *particleCase.allocator;
+    life.capacity = particleCase.count() + particleCase.count() / 4;
+    life.life = glm::dvec2(0.5, 1.5) * frames / particleCase.frameRate;
     Emitter& emitter = life.emitters.emplace_back();
     emitter.from = Emitter::From::box;
     emitter.box = group.place.box;
-    emitter.rate = born * one.frameRate;
+    emitter.rate = born * particleCase.frameRate;
     emitter.speed = {0, 1};
     emitter.spread = 3;
     group.count = 0;
@@ -174,32 +175,32 @@ static HeightFieldCollider hills() {
     return out;
 }
 
-Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecule& quad) {
+Scene particleScene(const ParticleCase& particleCase, const Molecule& point, const Molecule& quad) {
     Scene scene;
-    scene.name = one.label;
-    scene.frameRate = one.frameRate;
+    scene.name = particleCase.label;
+    scene.frameRate = particleCase.frameRate;
     scene.gravity = {0, -9.81, 0};
-    scene.solver.kind = one.solver;
-    scene.solver.substeps = one.substeps;
+    scene.solver.kind = particleCase.solver;
+    scene.solver.substeps = particleCase.substeps;
     scene.contact.steps = 1;
     scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
-    if (one.heights) scene.colliders.emplace_back().shape = hills();
+    if (particleCase.heights) scene.colliders.emplace_back().shape = hills();
     Group group;
-    group.name = one.quads ? "quads" : "points";
-    group.molecule = one.quads ? quad : point;
-    group.count = one.quads ? one.count() / 4 : one.count();
+    group.name = particleCase.quads ? "quads" : "points";
+    group.molecule = particleCase.quads ? quad : point;
+    group.count = particleCase.quads ? particleCase.count() / 4 : particleCase.count();
     group.held = false;
     group.place.box = {glm::dvec3(-6, -1, -6), glm::dvec3(5, 6, 5)};
     group.drag = {1, 1};
-    if (one.contact) {  // a fifth of a sphere in a cell
+    if (particleCase.contact) {  // a fifth of a sphere in a cell
         const glm::dvec3 size = group.place.box.high - group.place.box.low;
         const double cell = std::cbrt(size.x * size.y * size.z * 0.2 / group.count);
         group.contact.emplace().radius = cell / 4.2;
     }
-    if (one.allocator) addBirths(one, group);
-    if (one.drawn) {
+    if (particleCase.allocator) addBirths(particleCase, group);
+    if (particleCase.drawn) {
         ParticleType& type = group.particle.emplace();
-        type.shape = *one.drawn;
+        type.shape = *particleCase.drawn;
         type.blend = Blend::additive;
         group.molecule = moleculeOf(type);
     }

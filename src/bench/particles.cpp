@@ -22,26 +22,27 @@ constexpr int framesBefore = 30, framesTimed = 8;
 constexpr double slowFrameSeconds = 0.1;  // such frames are timed one by one
 
 // Frames until as many die as are born.
-int framesToSteady(const ParticleCase& one) {
-    return one.turnover > 0 ? int(2 / one.turnover) + 2 : framesBefore;
+int framesToSteady(const ParticleCase& particleCase) {
+    return particleCase.turnover > 0 ? int(2 / particleCase.turnover) + 2 : framesBefore;
 }
 
-Simulation makeSimulation(const ParticleCase& one, const Scene& scene, const BenchDevice& device) {
-    const SimulationOptions options{.drawn = one.drawn.has_value(), .path = one.path, .inPlace = one.inPlace};
+Simulation makeSimulation(const ParticleCase& particleCase, const Scene& scene, const BenchDevice& device) {
+    const SimulationOptions options{
+        .drawn = particleCase.drawn.has_value(), .path = particleCase.path, .inPlace = particleCase.inPlace};
     return Simulation(*device.context, compile(scene), options);
 }
 
 class StepRunner : public BenchRunner {
   public:
-    StepRunner(const ParticleCase& one, const Scene& scene, const BenchDevice& device)
-        : one_(one), simulation_(makeSimulation(one, scene, device)) {
-        if (one.drawn) draw_ = device.makeDraw(scene, simulation_.plan());
-        if (one.sort) makeSorter(device);
-        if (!one.sort && !one.contact && !one.drawn && !one.allocator)
+    StepRunner(const ParticleCase& particleCase, const Scene& scene, const BenchDevice& device)
+        : particleCase_(particleCase), simulation_(makeSimulation(particleCase, scene, device)) {
+        if (particleCase.drawn) draw_ = device.makeDraw(scene, simulation_.plan());
+        if (particleCase.sort) makeSorter(device);
+        if (!particleCase.sort && !particleCase.contact && !particleCase.drawn && !particleCase.allocator)
             movedBytes = fusedBytesPerFrame(simulation_.plan(), false);
-        for (int i = 0; i < framesToSteady(one); ++i)
+        for (int i = 0; i < framesToSteady(particleCase); ++i)
             simulation_.frame();
-        if (!one.allocator) start_ = simulation_.save();
+        if (!particleCase.allocator) start_ = simulation_.save();
     }
     void restart() override {
         if (start_) simulation_.load(*start_);
@@ -56,18 +57,18 @@ class StepRunner : public BenchRunner {
 
   private:
     void makeSorter(const BenchDevice& device) {
-        const size_t pairs = size_t(one_.count());
-        const int row = one_.sort == SortMethod::radix ? 0 : one_.side;
-        sorter_ = std::make_unique<Sorter>(*device.context, *one_.sort, pairs, row);
+        const size_t pairs = size_t(particleCase_.count());
+        const int row = particleCase_.sort == SortMethod::radix ? 0 : particleCase_.side;
+        sorter_ = std::make_unique<Sorter>(*device.context, *particleCase_.sort, pairs, row);
         sorter_->upload(randomKeys(pairs));
     }
     void sort() {
-        if (one_.spreadFrames == 0) return sorter_->sort();
-        if (spread_++ % one_.spreadFrames == 0) sorter_->beginSpread(one_.spreadFrames);
+        if (particleCase_.spreadFrames == 0) return sorter_->sort();
+        if (spread_++ % particleCase_.spreadFrames == 0) sorter_->beginSpread(particleCase_.spreadFrames);
         sorter_->advance();
     }
 
-    ParticleCase one_;
+    ParticleCase particleCase_;
     Simulation simulation_;
     std::optional<SavedState> start_;
     std::unique_ptr<Sorter> sorter_;
@@ -75,17 +76,17 @@ class StepRunner : public BenchRunner {
     Draw draw_;
 };
 
-ParticleStep loopStep(const ParticleCase& one, const Scene& scene) {
+ParticleStep loopStep(const ParticleCase& particleCase, const Scene& scene) {
     const Group& group = scene.groups[0];
     ParticleStep out;
     out.h = 1 / scene.frameRate / scene.solver.substeps;
     out.gravity = scene.gravity;
     out.wind = std::get<UniformField>(*scene.fields[0].shape).velocity;
     out.drag = group.drag.tangent;
-    if (one.heights) out.heights = kindOf<HeightFieldCollider>(*scene.colliders[0].shape);
-    if (one.turnover == 0) return out;
-    out.births = int(one.turnover * one.count());
-    out.life = glm::dvec2(0.5, 1.5) / one.turnover / one.frameRate;
+    if (particleCase.heights) out.heights = kindOf<HeightFieldCollider>(*scene.colliders[0].shape);
+    if (particleCase.turnover == 0) return out;
+    out.births = int(particleCase.turnover * particleCase.count());
+    out.life = glm::dvec2(0.5, 1.5) / particleCase.turnover / particleCase.frameRate;
     out.from = group.place.box;
     return out;
 }
@@ -100,22 +101,23 @@ void worldStart(const Scene& scene, std::vector<glm::vec3>& positions, std::vect
 // The step, and its positions to a buffer that a renderer would read.
 class LoopRunner : public BenchRunner {
   public:
-    LoopRunner(const ParticleCase& one, const Scene& scene, const BenchDevice& device)
-        : one_(one),
+    LoopRunner(const ParticleCase& particleCase, const Scene& scene, const BenchDevice& device)
+        : particleCase_(particleCase),
           scene_(scene),
-          step_(loopStep(one, scene_)),
-          loop_(size_t(one.count()) + size_t(one.count()) / 4, bestSimd(), device.cores) {
-        const size_t bytes = 4 * sizeof(float) * (size_t(one.count()) + size_t(one.count()) / 4);
+          step_(loopStep(particleCase, scene_)),
+          loop_(size_t(particleCase.count()) + size_t(particleCase.count()) / 4, bestSimd(), device.cores) {
+        const size_t bytes =
+            4 * sizeof(float) * (size_t(particleCase.count()) + size_t(particleCase.count()) / 4);
         buffer_ = gpu::Buffer(*device.context, gpu::Buffer::Use::vertex, nullptr, bytes, "uploaded");
-        if (one.turnover == 0) worldStart(scene_, positions_, velocities_);
+        if (particleCase.turnover == 0) worldStart(scene_, positions_, velocities_);
         toStart();
     }
     void restart() override {
-        if (one_.turnover == 0) toStart();
+        if (particleCase_.turnover == 0) toStart();
     }
     void frame() override {
         loop_.step(step_);
-        if (one_.sort) return sortAndUpload();
+        if (particleCase_.sort) return sortAndUpload();
         size_t offset = 0;
         for (const std::span<const float> part : loop_.positions()) {
             if (part.empty()) continue;
@@ -127,8 +129,8 @@ class LoopRunner : public BenchRunner {
 
   private:
     void toStart() {
-        if (one_.turnover == 0) loop_.set(positions_, velocities_);
-        for (int i = 0; i < framesToSteady(one_); ++i)
+        if (particleCase_.turnover == 0) loop_.set(positions_, velocities_);
+        for (int i = 0; i < framesToSteady(particleCase_); ++i)
             loop_.step(step_);
     }
     // From back to front along z.
@@ -149,7 +151,7 @@ class LoopRunner : public BenchRunner {
         buffer_.update(gpu::Traffic::Kind::state, 0, sorted_.data(), sorted_.size() * sizeof(float));
     }
 
-    ParticleCase one_;
+    ParticleCase particleCase_;
     Scene scene_;
     ParticleStep step_;
     ParticleBaseline loop_;
@@ -159,29 +161,30 @@ class LoopRunner : public BenchRunner {
     gpu::Buffer buffer_;
 };
 
-std::unique_ptr<BenchRunner> makeParticleRunner(const ParticleCase& one, const Molecule& point,
+std::unique_ptr<BenchRunner> makeParticleRunner(const ParticleCase& particleCase, const Molecule& point,
                                                 const Molecule& quad, const BenchDevice& device) {
-    const Scene scene = particleScene(one, point, quad);
-    if (one.what == What::step) return std::make_unique<StepRunner>(one, scene, device);
-    if (one.what == What::cpuLoop) return std::make_unique<LoopRunner>(one, scene, device);
+    const Scene scene = particleScene(particleCase, point, quad);
+    if (particleCase.what == What::step) return std::make_unique<StepRunner>(particleCase, scene, device);
+    if (particleCase.what == What::cpuLoop) return std::make_unique<LoopRunner>(particleCase, scene, device);
     BenchCase copy;
     copy.subject = Subject::kernelCopy;
     copy.count = 64;
     const BenchStart none(copy, point, 1);
-    copy.count = one.count();
+    copy.count = particleCase.count();
     return makeRunner(copy, point, none, device);
 }
 
-std::string reasonToLeaveOut(const ParticleCase& one, const BenchDevice& device) {
+std::string reasonToLeaveOut(const ParticleCase& particleCase, const BenchDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
-    const bool computes = one.path == Path::fused || one.what == What::copy || one.sort == SortMethod::radix;
+    const bool computes = particleCase.path == Path::fused || particleCase.what == What::copy ||
+                          particleCase.sort == SortMethod::radix;
     if (!info.computeShaders && computes)
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
-    if (one.contact && one.path == Path::fused) {
+    if (particleCase.contact && particleCase.path == Path::fused) {
         const size_t most = ContactData::most(info, {});
-        if (size_t(one.count()) > most) return concat("this context holds the contact of ", most);
+        if (size_t(particleCase.count()) > most) return concat("this context holds the contact of ", most);
     }
-    if (one.drawn && !device.makeDraw) return "nothing to draw with";
+    if (particleCase.drawn && !device.makeDraw) return "nothing to draw with";
     return {};
 }
 
@@ -190,12 +193,12 @@ class ParticleEntrant {
     ParticleEntrant(ParticleTimes& result, const Molecule& point, const Molecule& quad,
                     const BenchDevice& device)
         : result_(result),
-          runner_(makeParticleRunner(result.one, point, quad, device)),
+          runner_(makeParticleRunner(result.benchCase, point, quad, device)),
           context_(*device.context),
-          ownTimes_(device.ownTimes && result.one.what != What::cpuLoop) {
+          ownTimes_(device.ownTimes && result.benchCase.what != What::cpuLoop) {
         result.movedBytes = runner_->movedBytes;
-        result.error = positionError(result.one, point, device);
-        if (result.one.allocator) steps_ = dynamic_cast<const StepRunner*>(runner_.get());
+        result.error = positionError(result.benchCase, point, device);
+        if (result.benchCase.allocator) steps_ = dynamic_cast<const StepRunner*>(runner_.get());
         if (steps_) before_ = steps_->simulation().lifeCounts(0);
         if (steps_) framesAtStart_ = steps_->simulation().frames();
     }
@@ -270,22 +273,22 @@ std::optional<double> positionError(const ParticleCase& given, const Molecule& p
     if (given.heights || given.contact || given.sort || given.drawn || given.turnover > 0 || given.quads ||
         given.what == What::copy)
         return std::nullopt;
-    ParticleCase one = given;
-    one.side = 64;
-    const Scene scene = particleScene(one, point, point);
+    ParticleCase particleCase = given;
+    particleCase.side = 64;
+    const Scene scene = particleScene(particleCase, point, point);
     const int frames = int(std::lround(scene.frameRate));
     std::vector<glm::vec3> positions, velocities;
     worldStart(scene, positions, velocities);
     std::vector<glm::dvec3> ends;
-    if (one.what == What::cpuLoop) {
+    if (particleCase.what == What::cpuLoop) {
         ParticleBaseline loop(positions.size(), bestSimd(), device.cores);
         loop.set(positions, velocities);
         for (int i = 0; i < frames; ++i)
-            loop.step(loopStep(one, scene));
+            loop.step(loopStep(particleCase, scene));
         for (const ParticleBaseline::Particle& particle : loop.get())
             ends.emplace_back(particle.position);
     } else {
-        Simulation simulation = makeSimulation(one, scene, device);
+        Simulation simulation = makeSimulation(particleCase, scene, device);
         for (int i = 0; i < frames; ++i)
             simulation.frame();
         ends = simulation.snapshot(0).positions;
@@ -304,8 +307,8 @@ std::vector<ParticleTimes> measureParticles(const std::vector<ParticleCase>& cas
                                             const measure::Schedule& schedule) {
     std::vector<ParticleTimes> out;
     out.reserve(cases.size());
-    for (const ParticleCase& one : cases)
-        out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, device)});
+    for (const ParticleCase& particleCase : cases)
+        out.push_back({.benchCase = particleCase, .leftOut = reasonToLeaveOut(particleCase, device)});
     measureInTurn(
         out, schedule, [](double) {},
         [&](ParticleTimes& times) { return std::make_unique<ParticleEntrant>(times, point, quad, device); });

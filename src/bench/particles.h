@@ -47,10 +47,10 @@ struct ParticleCase {
 
 // Group by group. `quick`: one small square.
 std::vector<ParticleCase> particleCases(bool quick);
-Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecule& quad);
+Scene particleScene(const ParticleCase& particleCase, const Molecule& point, const Molecule& quad);
 
 struct ParticleTimes {
-    ParticleCase one;
+    ParticleCase benchCase;
     std::string leftOut;               // why it was not measured; empty: it was
     measure::Spread frame = {};        // s, wall time
     measure::Spread device = {};       // s, as BenchResult's
@@ -61,12 +61,12 @@ struct ParticleTimes {
     double born = 0, lost = 0;     // a frame
     double live = 0, packing = 1;  // packing: one past the last place that is taken, over the living
 
-    double perParticle() const { return frame.min / one.count(); }  // s
+    double perParticle() const { return frame.min / benchCase.count(); }  // s
 };
 
 // Returns the error after 1 s against the closed form of constant force and drag, RMS over 4,096 particles;
 // nothing for a case in which anything else acts.
-std::optional<double> positionError(const ParticleCase& one, const Molecule& point,
+std::optional<double> positionError(const ParticleCase& particleCase, const Molecule& point,
                                     const BenchDevice& device);
 
 // Cases of one group. Error: the driver refuses a shader.

@@ -30,21 +30,21 @@ double fastestFrame(BenchRunner& runner, const BenchDevice& device) {
 }
 
 DeviceRates measureRates(const BenchDevice& device) {
-    BenchCase one;
-    one.subject = Subject::kernelCopy;
-    one.molecule = "quad";
-    one.count = copiedQuads;
+    BenchCase benchCase;
+    benchCase.subject = Subject::kernelCopy;
+    benchCase.molecule = "quad";
+    benchCase.count = copiedQuads;
     const Molecule quad = cloth(2);  // of as many vertices
-    BenchCase small = one;
+    BenchCase small = benchCase;
     small.count = 1;
     const BenchStart none(small, quad, 1);  // copies begin anywhere
     DeviceRates out;
     {
-        const auto copy = makeRunner(one, quad, none, device);
+        const auto copy = makeRunner(benchCase, quad, none, device);
         out.bytesPerSecond = double(copy->movedBytes) / fastestFrame(*copy, device);
     }
-    one.subject = Subject::multiplyAdd;
-    const auto compute = makeRunner(one, quad, none, device);
+    benchCase.subject = Subject::multiplyAdd;
+    const auto compute = makeRunner(benchCase, quad, none, device);
     out.operationsPerSecond = compute->operations / fastestFrame(*compute, device);
     return out;
 }

@@ -18,14 +18,16 @@ namespace {
 
 class PathRunner : public BenchRunner {
   public:
-    PathRunner(const BenchCase& one, const Molecule& molecule, const BenchStart& start,
+    PathRunner(const BenchCase& benchCase, const Molecule& molecule, const BenchStart& start,
                const BenchDevice& device)
-        : scene_(benchScene(one, molecule)), simulation_(*device.context, planOf(start), optionsOf(one)) {
-        if (one.drawn) draw_ = device.makeDraw(scene_, simulation_.plan());
+        : scene_(benchScene(benchCase, molecule)),
+          simulation_(*device.context, planOf(start), optionsOf(benchCase)) {
+        if (benchCase.drawn) draw_ = device.makeDraw(scene_, simulation_.plan());
         stateBytes = simulation_.stateBytes();
         lanes = simulation_.lanes(0);
-        operations = one.drawn ? 0 : operationsPerFrame(one, molecule);
-        if (one.subject == Subject::fused) movedBytes = fusedBytesPerFrame(simulation_.plan(), one.drawn);
+        operations = benchCase.drawn ? 0 : operationsPerFrame(benchCase, molecule);
+        if (benchCase.subject == Subject::fused)
+            movedBytes = fusedBytesPerFrame(simulation_.plan(), benchCase.drawn);
     }
     void restart() override { simulation_.restart(); }
     void frame() override {
@@ -40,8 +42,11 @@ class PathRunner : public BenchRunner {
         out.groups[0].start = start.packed;
         return out;
     }
-    static SimulationOptions optionsOf(const BenchCase& one) {
-        return {.drawn = one.drawn, .path = pathOf(one.subject), .inPlace = one.inPlace, .lanes = one.lanes};
+    static SimulationOptions optionsOf(const BenchCase& benchCase) {
+        return {.drawn = benchCase.drawn,
+                .path = pathOf(benchCase.subject),
+                .inPlace = benchCase.inPlace,
+                .lanes = benchCase.lanes};
     }
 
     Scene scene_;
@@ -51,13 +56,13 @@ class PathRunner : public BenchRunner {
 
 class BaselineRunner : public BenchRunner {
   public:
-    BaselineRunner(const BenchCase& one, const Molecule& molecule, const BenchStart& start, int cores)
+    BaselineRunner(const BenchCase& benchCase, const Molecule& molecule, const BenchStart& start, int cores)
         : start_(start),
-          step_(baselineStep(benchScene(one, molecule))),
-          baseline_(molecule, one.count, simdOf(one.subject), cores) {
-        stateBytes = baseline_.bytesPerMolecule() * size_t(one.count);
+          step_(baselineStep(benchScene(benchCase, molecule))),
+          baseline_(molecule, benchCase.count, simdOf(benchCase.subject), cores) {
+        stateBytes = baseline_.bytesPerMolecule() * size_t(benchCase.count);
         movedBytes = 2 * stateBytes;
-        operations = operationsPerFrame(one, molecule);
+        operations = operationsPerFrame(benchCase, molecule);
         restart();
     }
     void restart() override { baseline_.set(start_.positions, start_.velocities); }
@@ -166,15 +171,15 @@ class MemoryCopy : public BenchRunner {
 };
 
 // Returns the bytes of one side of the fused path's state.
-size_t sideBytes(const BenchCase& one, const Molecule& molecule) {
+size_t sideBytes(const BenchCase& benchCase, const Molecule& molecule) {
     const BufferLayout layout{int(molecule.vertices.size())};
-    return layout.padded(size_t(one.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);
+    return layout.padded(size_t(benchCase.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);
 }
 
 }  // namespace
 
-BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores) {
-    BenchCase plain = one;
+BenchStart::BenchStart(const BenchCase& benchCase, const Molecule& molecule, int cores) {
+    BenchCase plain = benchCase;
     plain.wind = Wind::uniform;
     const Scene scene = benchScene(plain, molecule);
     packed = compile(scene).groups[0].start;
@@ -182,7 +187,7 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
     for (size_t i = 0; i < packed.positions.size(); ++i)
         positions.push_back(packed.anchors[i / vertices] + packed.positions[i]);
     velocities = packed.velocities;
-    Baseline baseline(molecule, one.count, bestSimd(), cores);
+    Baseline baseline(molecule, benchCase.count, bestSimd(), cores);
     baseline.set(positions, velocities);
     const BaselineStep step = baselineStep(scene);
     for (int i = 0; i < framesBefore; ++i)
@@ -197,8 +202,8 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
 }
 
 double lastOf(const gpu::PassTimers& timers, const char* pass) {
-    for (const gpu::PassTime& one : timers.report())
-        if (one.name == pass) return one.last;
+    for (const gpu::PassTime& time : timers.report())
+        if (time.name == pass) return time.last;
     return 0;
 }
 
@@ -209,41 +214,44 @@ size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
     return out;
 }
 
-double operationsPerFrame(const BenchCase& one, const Molecule& molecule) {
-    if (one.solver != SolverKind::euler || one.wind != Wind::uniform) return 0;
+double operationsPerFrame(const BenchCase& benchCase, const Molecule& molecule) {
+    if (benchCase.solver != SolverKind::euler || benchCase.wind != Wind::uniform) return 0;
     const double substep = springOperations * double(molecule.springs.size()) +
                            (motionOperations + planeOperations) * double(molecule.vertices.size());
-    return substep * one.substeps * one.count;
+    return substep * benchCase.substeps * benchCase.count;
 }
 
-std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device) {
+std::string reasonToLeaveOut(const BenchCase& benchCase, const Molecule& molecule,
+                             const BenchDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
-    if (needsCompute(one.subject) && !info.computeShaders)
+    if (needsCompute(benchCase.subject) && !info.computeShaders)
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
-    if (isBaseline(one.subject) && !available(simdOf(one.subject)))
+    if (isBaseline(benchCase.subject) && !available(simdOf(benchCase.subject)))
         return "this processor or build lacks the instructions";
-    if (isBullet(one.subject) && !device.makeBullet) return "not built with Bullet (apt: libbullet-dev)";
-    if (one.drawn && !device.makeDraw) return "nothing to draw with";
-    const auto bytes = int64_t(sideBytes(one, molecule));
+    if (isBullet(benchCase.subject) && !device.makeBullet)
+        return "not built with Bullet (apt: libbullet-dev)";
+    if (benchCase.drawn && !device.makeDraw) return "nothing to draw with";
+    const auto bytes = int64_t(sideBytes(benchCase, molecule));
     const int64_t texels = bytes / int64_t(sizeof(glm::vec4));
     const bool fits = bytes <= info.maxStorageBlockBytes && texels <= info.maxBufferTexels &&
                       texels / KernelCopy::lanesOfGroup < info.maxWorkGroupsX;
-    if (one.subject == Subject::kernelCopy && !fits) return "more than one dispatch can copy here";
+    if (benchCase.subject == Subject::kernelCopy && !fits) return "more than one dispatch can copy here";
     return {};
 }
 
-std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,
+std::unique_ptr<BenchRunner> makeRunner(const BenchCase& benchCase, const Molecule& molecule,
                                         const BenchStart& start, const BenchDevice& device) {
-    if (isPath(one.subject)) return std::make_unique<PathRunner>(one, molecule, start, device);
-    if (isBaseline(one.subject)) return std::make_unique<BaselineRunner>(one, molecule, start, device.cores);
-    if (one.subject == Subject::memoryCopy) {
-        const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(one.count);
+    if (isPath(benchCase.subject)) return std::make_unique<PathRunner>(benchCase, molecule, start, device);
+    if (isBaseline(benchCase.subject))
+        return std::make_unique<BaselineRunner>(benchCase, molecule, start, device.cores);
+    if (benchCase.subject == Subject::memoryCopy) {
+        const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(benchCase.count);
         return std::make_unique<MemoryCopy>(bytes, device.cores);
     }
-    if (isBullet(one.subject)) return device.makeBullet(one, molecule);
-    if (one.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
-    const size_t bytes = sideBytes(one, molecule);
-    if (one.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);
+    if (isBullet(benchCase.subject)) return device.makeBullet(benchCase, molecule);
+    if (benchCase.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
+    const size_t bytes = sideBytes(benchCase, molecule);
+    if (benchCase.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);
     return std::make_unique<BufferCopy>(bytes, device);
 }
 

@@ -41,7 +41,7 @@ struct BenchStart {
     std::vector<glm::vec3> positions, velocities;  // world coordinates, m and m/s; molecule by molecule
     GroupState packed;                             // the same
 
-    BenchStart(const BenchCase& one, const Molecule& molecule, int cores);
+    BenchStart(const BenchCase& benchCase, const Molecule& molecule, int cores);
 };
 
 class BenchRunner {
@@ -63,13 +63,13 @@ class BenchRunner {
 };
 
 // About how many a frame of the workload takes, in uniform wind and in the air.
-double operationsPerFrame(const BenchCase& one, const Molecule& molecule);
+double operationsPerFrame(const BenchCase& benchCase, const Molecule& molecule);
 
 // Why a case cannot be run here; empty when it can.
-std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device);
+std::string reasonToLeaveOut(const BenchCase& benchCase, const Molecule& molecule, const BenchDevice& device);
 
 // Borrows all of its arguments. Error: out of memory, the driver refuses a shader.
-std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,
+std::unique_ptr<BenchRunner> makeRunner(const BenchCase& benchCase, const Molecule& molecule,
                                         const BenchStart& start, const BenchDevice& device);
 
 // The last value of a pass, s; 0 without it.

@@ -13,8 +13,8 @@ class SchoolEntrant {
   public:
     SchoolEntrant(SchoolTimes& times, const Molecule& fry, const BenchDevice& device)
         : times_(times),
-          simulation_(*device.context, compile(schoolScene(times.one, fry)),
-                      {.drawn = false, .path = times.one.path}),
+          simulation_(*device.context, compile(schoolScene(times.benchCase, fry)),
+                      {.drawn = false, .path = times.benchCase.path}),
           ownTimes_(device.ownTimes) {}
 
     // Half a second, by which they are in motion; then what a visit costs.
@@ -61,8 +61,8 @@ std::vector<SchoolCase> schoolCases(bool quick, bool software) {
     return out;
 }
 
-Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
-    const double half = std::cbrt(one.count / schoolDensity) / 2;
+Scene schoolScene(const SchoolCase& schoolCase, const Molecule& fry) {
+    const double half = std::cbrt(schoolCase.count / schoolDensity) / 2;
     Scene scene;
     scene.seed = 1;
     scene.solver.kind = SolverKind::leapfrog;
@@ -70,12 +70,12 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
     Group& group = scene.groups.emplace_back();
     group.name = "fry";
     group.molecule = fry;
-    group.count = one.count;
+    group.count = schoolCase.count;
     group.place.kind = Placement::Kind::volume;
     group.place.box = {glm::dvec3(-half), glm::dvec3(half)};
     group.place.turn = Placement::Turn::yaw;
     group.drag = {40, 1};
-    if (!one.schools) return scene;
+    if (!schoolCase.schools) return scene;
     School& school = group.school.emplace();
     school.radius = 0.4;
     school.separationRadius = 0.15;
@@ -87,8 +87,8 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
                                         const BenchDevice& device, const measure::Schedule& schedule) {
     std::vector<SchoolTimes> out;
-    for (const SchoolCase& one : cases)
-        out.push_back({.one = one});
+    for (const SchoolCase& schoolCase : cases)
+        out.push_back({.benchCase = schoolCase});
     measureInTurn(
         out, schedule, [](double) {},
         [&](SchoolTimes& times) { return std::make_unique<SchoolEntrant>(times, fry, device); });

@@ -67,19 +67,19 @@ std::vector<StartTime> measureStart(const BenchMolecules& molecules, const Bench
             if (!quick || solver == SolverKind::euler) out.push_back({molecule, solver, 16384});
     for (size_t i = 0; i < out.size(); ++i) {
         progress(double(i) / double(out.size()));
-        StartTime& one = out[i];
+        StartTime& times = out[i];
         BenchCase like;
-        like.molecule = one.molecule;
-        like.count = one.count;
-        like.solver = one.solver;
-        const Scene scene = benchScene(like, unseen(molecules.of(one.molecule)));
+        like.molecule = times.molecule;
+        like.count = times.count;
+        like.solver = times.solver;
+        const Scene scene = benchScene(like, unseen(molecules.named(times.molecule)));
         const Clock::time_point start = Clock::now();
         const Plan plan = compile(scene);
-        one.compile = secondsSince(start);
+        times.compile = secondsSince(start);
         const ScratchFolder folder;
-        one.cold = firstFrame(plan, device, folder.path.string());
-        one.driver = firstFrame(plan, device, "");
-        one.cached = firstFrame(plan, device, folder.path.string());
+        times.cold = firstFrame(plan, device, folder.path.string());
+        times.driver = firstFrame(plan, device, "");
+        times.cached = firstFrame(plan, device, folder.path.string());
     }
     return out;
 }

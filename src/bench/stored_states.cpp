@@ -132,24 +132,25 @@ StoredStates readStoredStates(const std::string& file) {
     std::string format;
     reader.need("format", format);
     if (format != "shoal-states-1")
-        throw Error(reader.at("format"), "expected \"shoal-states-1\", found \"", format, "\"");
+        throw Error(reader.locate("format"), "expected \"shoal-states-1\", found \"", format, "\"");
     reader.need("statistics", out.pictures);
-    if (out.pictures != statisticNames()) throw Error(reader.at("statistics"), "expected other statistics");
+    if (out.pictures != statisticNames())
+        throw Error(reader.locate("statistics"), "expected other statistics");
     reader.need("pictures", out.pictures);
     for (JsonReader& state : reader.objects("states")) {
         StoredState& stored = out.states.emplace_back();
         state.need("name", stored.name);
         state.need("frames", stored.frames, Range::between(1, 1000));
         for (JsonReader& group : state.objects("groups")) {
-            StoredGroup& one = stored.groups.emplace_back();
-            group.need("name", one.name);
-            group.need("statistics", one.statistics);
-            group.need("tolerances", one.tolerances);
-            group.get("vertices", one.vertices);
-            group.get("vertexTolerance", one.vertexTolerance);
-            if (one.statistics.size() != statisticNames().size() ||
-                one.tolerances.size() != one.statistics.size())
-                throw Error(group.at("statistics"), "expected ", statisticNames().size(), " numbers");
+            StoredGroup& storedGroup = stored.groups.emplace_back();
+            group.need("name", storedGroup.name);
+            group.need("statistics", storedGroup.statistics);
+            group.need("tolerances", storedGroup.tolerances);
+            group.get("vertices", storedGroup.vertices);
+            group.get("vertexTolerance", storedGroup.vertexTolerance);
+            if (storedGroup.statistics.size() != statisticNames().size() ||
+                storedGroup.tolerances.size() != storedGroup.statistics.size())
+                throw Error(group.locate("statistics"), "expected ", statisticNames().size(), " numbers");
             group.finish();
         }
         state.finish();
@@ -169,9 +170,9 @@ Mismatch mismatch(const Simulation& simulation, const StoredGroup& stored, size_
     Mismatch out;
     const auto consider = [&](double difference, double tolerance, const std::string& what) {
         // what is not a number is the worst
-        const double ratio = difference / tolerance, of = std::isfinite(ratio) ? ratio : 1e30;
-        if (of < out.ofTolerance && !out.worst.empty()) return;
-        out = {of, concat(stored.name, ": ", what, " off by ", formatted("%.3g", difference))};
+        const double ratio = difference / tolerance, share = std::isfinite(ratio) ? ratio : 1e30;
+        if (share < out.ofTolerance && !out.worst.empty()) return;
+        out = {share, concat(stored.name, ": ", what, " off by ", formatted("%.3g", difference))};
     };
     for (size_t i = 0; i < statistics.size(); ++i)
         consider(std::abs(statistics[i] - stored.statistics[i]), stored.tolerances[i], statisticNames()[i]);
@@ -225,8 +226,8 @@ StoredState recordState(const std::string& name, const Scene& scene, int frames,
             const double floor = least * scaleOf(i, group.statistics, size);
             group.tolerances.push_back(roundedUp(std::max(margin * moved[g][i], floor)));
         }
-        for (double& one : group.statistics)
-            one = rounded(one);
+        for (double& statistic : group.statistics)
+            statistic = rounded(statistic);
         group.vertexTolerance = roundedUp(std::max(margin * group.vertexTolerance, least * size));
         if (simulation.plan().groups[g].needs.life || group.vertexTolerance > chance * size) {
             group.vertices.clear();

@@ -11,14 +11,16 @@ using Test = std::function<bool(const BenchCase&)>;
 
 const BenchResult* find(const std::vector<BenchResult>& all, const Test& test) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const BenchResult& result) {
-        return result.frame.min > 0 && test(result.one);
+        return result.frame.min > 0 && test(result.benchCase);
     });
     return found == all.end() ? nullptr : &*found;
 }
 
 const BenchResult* labelled(const std::vector<BenchResult>& all, const std::string& group,
                             const std::string& label) {
-    return find(all, [&](const BenchCase& one) { return one.group == group && one.label == label; });
+    return find(all, [&](const BenchCase& benchCase) {
+        return benchCase.group == group && benchCase.label == label;
+    });
 }
 
 std::optional<double> over(const BenchResult* a, const BenchResult* b) {
@@ -30,38 +32,40 @@ double bandwidthOf(const BenchResult& result) {
     return double(result.movedBytes) / result.frame.min;
 }
 
-bool comparable(const BenchCase& one) {
-    return !isCopy(one.subject) && one.subject != Subject::multiplyAdd;
+bool comparable(const BenchCase& benchCase) {
+    return !isCopy(benchCase.subject) && benchCase.subject != Subject::multiplyAdd;
 }
 
 // The baselines run the uniform wind and draw nothing.
 std::optional<double> againstBaseline(const BenchResult& result, const std::vector<BenchResult>& all,
                                       Subject subject) {
-    const BenchCase& one = result.one;
-    if (one.drawn || one.wind != Wind::uniform || !comparable(one)) return std::nullopt;
+    const BenchCase& benchCase = result.benchCase;
+    if (benchCase.drawn || benchCase.wind != Wind::uniform || !comparable(benchCase)) return std::nullopt;
     return over(&result, find(all, [&](const BenchCase& other) {
-        return other.group == one.group && other.subject == subject && other.substeps == one.substeps;
+        return other.group == benchCase.group && other.subject == subject &&
+               other.substeps == benchCase.substeps;
     }));
 }
 
 std::optional<double> againstPingPong(const BenchResult& result, const std::vector<BenchResult>& all) {
-    const BenchCase& one = result.one;
-    if (!comparable(one)) return std::nullopt;
+    const BenchCase& benchCase = result.benchCase;
+    if (!comparable(benchCase)) return std::nullopt;
     return over(find(all,
                      [&](const BenchCase& other) {
-                         return other.group == one.group && other.subject == Subject::pingPong &&
-                                other.substeps == one.substeps && other.solver == one.solver &&
-                                other.wind == one.wind && other.drawn == one.drawn;
+                         return other.group == benchCase.group && other.subject == Subject::pingPong &&
+                                other.substeps == benchCase.substeps && other.solver == benchCase.solver &&
+                                other.wind == benchCase.wind && other.drawn == benchCase.drawn;
                      }),
                 &result);
 }
 
 std::optional<double> shareOfCopy(const BenchResult& result, const std::vector<BenchResult>& all) {
-    const bool device = isPath(result.one.subject);
+    const bool device = isPath(result.benchCase.subject);
     double best = 0;
     for (const BenchResult& other : all) {
-        const bool alike = isCopy(other.one.subject) && other.one.group == result.one.group &&
-                           (other.one.subject == Subject::memoryCopy) != device;
+        const bool alike = isCopy(other.benchCase.subject) &&
+                           other.benchCase.group == result.benchCase.group &&
+                           (other.benchCase.subject == Subject::memoryCopy) != device;
         if (alike && other.frame.min > 0) best = std::max(best, bandwidthOf(other));
     }
     if (best == 0) return std::nullopt;
@@ -98,8 +102,8 @@ void addFlatness(std::vector<Target>& out, const std::vector<BenchResult>& all) 
     for (const char* group : {"16,384 quads", "131,072 quads", "1,048,576 quads"}) {
         const BenchResult* result = labelled(all, group, "fused");
         if (!result) continue;
-        medians.push_back(result->frame.median / result->one.count);
-        minima.push_back(result->frame.min / result->one.count);
+        medians.push_back(result->frame.median / result->benchCase.count);
+        minima.push_back(result->frame.min / result->benchCase.count);
     }
     Target flat{"fused, slowest over fastest time per quad from 16,384 to 1,048,576", 1.25, false};
     const auto spread = [](const std::vector<double>& values) {
@@ -118,18 +122,18 @@ void addMemory(std::vector<Target>& out, const std::vector<BenchResult>& all) {
     const auto bytes = [&](const char* label) -> std::optional<double> {
         const BenchResult* result = labelled(all, group, label);
         if (!result) return std::nullopt;
-        return double(result->stateBytes) / result->one.count;
+        return double(result->stateBytes) / result->benchCase.count;
     };
-    const std::optional<double> two = bytes("fused"), one = bytes("fused, in place"),
+    const std::optional<double> twoSides = bytes("fused"), inPlace = bytes("fused, in place"),
                                 drawn = bytes("fused, drawn");
-    out.push_back({"device memory of a quad, two sides", 290, false, two, "bytes", {}});
-    out.push_back({"device memory of a quad, in place", 160, false, one, "bytes", {}});
+    out.push_back({"device memory of a quad, two sides", 290, false, twoSides, "bytes", {}});
+    out.push_back({"device memory of a quad, in place", 160, false, inPlace, "bytes", {}});
     std::optional<double> more;
-    if (two && drawn) more = *drawn - *two;
+    if (twoSides && drawn) more = *drawn - *twoSides;
     out.push_back({"device memory of a quad, more when drawn", 64, false, more, "bytes", {}});
     std::optional<double> bus;
     for (const BenchResult& result : all)
-        if (result.one.subject == Subject::fused && result.frame.samples > 0)
+        if (result.benchCase.subject == Subject::fused && result.frame.samples > 0)
             bus = std::max(bus.value_or(0), result.busStateBytes);
     out.push_back({"state over the bus a frame, fused", 0, false, bus, "bytes", {}});
 }
@@ -143,12 +147,12 @@ Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all) 
     out.avx2 = againstBaseline(result, all, Subject::avx2);
     out.pingPong = againstPingPong(result, all);
     if (result.operations > 0) out.arithmetic = result.operations / result.frame.min;
-    const BenchResult* peak = labelled(all, result.one.group, name(Subject::multiplyAdd));
-    if (out.arithmetic && peak && isPath(result.one.subject))
+    const BenchResult* peak = labelled(all, result.benchCase.group, name(Subject::multiplyAdd));
+    if (out.arithmetic && peak && isPath(result.benchCase.subject))
         out.shareOfPeak = *out.arithmetic / (peak->operations / peak->frame.min);
-    if (result.movedBytes == 0 || result.one.drawn) return out;
+    if (result.movedBytes == 0 || result.benchCase.drawn) return out;
     out.bandwidth = bandwidthOf(result);
-    if (!isCopy(result.one.subject)) out.shareOfCopy = shareOfCopy(result, all);
+    if (!isCopy(result.benchCase.subject)) out.shareOfCopy = shareOfCopy(result, all);
     return out;
 }
 
@@ -166,10 +170,11 @@ std::vector<Target> targets(const std::vector<BenchResult>& all, bool software) 
 }
 
 const BenchResult* speedOf(const BenchError& error, int count, const std::vector<BenchResult>& all) {
-    return find(all, [&](const BenchCase& one) {
-        return one.molecule == "quad" && one.count == count && one.subject == error.subject &&
-               one.solver == error.solver && one.wind == error.wind && one.sampling == error.sampling &&
-               one.substeps == 4 && !one.drawn && !one.inPlace;
+    return find(all, [&](const BenchCase& benchCase) {
+        return benchCase.molecule == "quad" && benchCase.count == count &&
+               benchCase.subject == error.subject && benchCase.solver == error.solver &&
+               benchCase.wind == error.wind && benchCase.sampling == error.sampling &&
+               benchCase.substeps == 4 && !benchCase.drawn && !benchCase.inPlace;
     });
 }
 
@@ -183,12 +188,12 @@ int disturbed(const std::vector<BenchResult>& all) {
 std::vector<std::string> distances(const std::vector<BenchResult>& all) {
     std::vector<std::string> out;
     for (const BenchResult& result : all) {
-        if (result.one.subject != Subject::fused || result.one.inPlace) continue;
+        if (result.benchCase.subject != Subject::fused || result.benchCase.inPlace) continue;
         const Ratios ratios = ratiosOf(result, all);
         if (!ratios.shareOfPeak || !ratios.shareOfCopy) continue;
         out.push_back(
             formatted("%s: %.3g GB/s, %.0f%% of a copy; about %.3g Gflop/s, %.0f%% of multiply-adds alone",
-                      result.one.name().c_str(), *ratios.bandwidth * 1e-9, *ratios.shareOfCopy * 100,
+                      result.benchCase.name().c_str(), *ratios.bandwidth * 1e-9, *ratios.shareOfCopy * 100,
                       *ratios.arithmetic * 1e-9, *ratios.shareOfPeak * 100));
     }
     return out;

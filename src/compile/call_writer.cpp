@@ -31,13 +31,13 @@ NumberLayout::Point NumberLayout::put(const glm::dvec3& point, std::optional<boo
 
 std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far) {
     NumberLayout layout;
-    for (const GlslCall::Argument& one : call.arguments()) {
-        if (one.kind == GlslCall::Kind::from)
-            layout.put(glm::dvec3(one.value), std::optional(far));
-        else if (one.count > 0)
-            layout.put(one.value, one.count);
+    for (const GlslCall::Argument& argument : call.arguments()) {
+        if (argument.kind == GlslCall::Kind::from)
+            layout.put(glm::dvec3(argument.value), std::optional(far));
+        else if (argument.count > 0)
+            layout.put(argument.value, argument.count);
         else
-            EXPECTS(one.kind == GlslCall::Kind::text);
+            EXPECTS(argument.kind == GlslCall::Kind::text);
     }
     return std::move(layout.parameters);
 }
@@ -60,58 +60,58 @@ std::string CallWriter::slot(const glm::dvec3& v, double w) {
 
 std::string CallWriter::fromPoint(const glm::dvec3& point, std::optional<bool> far) {
     const auto known =
-        std::find_if(points_.begin(), points_.end(), [&](const auto& one) { return one.first == point; });
+        std::find_if(points_.begin(), points_.end(), [&](const auto& entry) { return entry.first == point; });
     if (known != points_.end()) return known->second;
-    const Point at = put(point - frame_.origin, far);
+    const Point split = put(point - frame_.origin, far);
     const std::string from =
-        at.lattice ? concat("(", frame_.anchor, " - ", textOf(*at.lattice), ")") : frame_.anchor;
-    points_.emplace_back(point, concat(from, " - ", textOf(at.rest)));
+        split.lattice ? concat("(", frame_.anchor, " - ", textOf(*split.lattice), ")") : frame_.anchor;
+    points_.emplace_back(point, concat(from, " - ", textOf(split.rest)));
     return points_.back().second;
 }
 
-std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bool> far) {
+std::string CallWriter::argument(const GlslCall::Argument& given, std::optional<bool> far) {
     using Kind = GlslCall::Kind;
-    switch (one.kind) {
+    switch (given.kind) {
     case Kind::from:
-        return concat("(", fromPoint(glm::dvec3(one.value), far), ") + ", frame_.position);
+        return concat("(", fromPoint(glm::dvec3(given.value), far), ") + ", frame_.position);
     case Kind::apart:
-        return concat(fromPoint(glm::dvec3(one.value), far), ", ", frame_.position);
+        return concat(fromPoint(glm::dvec3(given.value), far), ", ", frame_.position);
     case Kind::numbers:
-        return textOf(put(one.value, one.count));
+        return textOf(put(given.value, given.count));
     case Kind::axis: {
-        const size_t slot = put(one.value, one.count).slot;
+        const size_t slot = put(given.value, given.count).slot;
         return concat(textOf({slot, 0, 3}), ", ", textOf({slot, 3, 1}));
     }
     case Kind::cell:
-        return cell = textOf(put(one.value, one.count));
+        return cell = textOf(put(given.value, given.count));
     case Kind::text:
-        return one.text;
+        return given.text;
     case Kind::clock: {
-        clocks.push_back({one.clock, first_ + parameters.size()});
+        clocks.push_back({given.clock, first_ + parameters.size()});
         const std::string c = slot({});
-        if (one.clock.kind == FieldClock::Kind::angle) return c + ".x";
-        if (one.clock.kind == FieldClock::Kind::frames) return concat(c, ".x, ", c, ".y + time");
+        if (given.clock.kind == FieldClock::Kind::angle) return c + ".x";
+        if (given.clock.kind == FieldClock::Kind::frames) return concat(c, ".x, ", c, ".y + time");
         return concat(c, ".x, uint(", c, ".y) + 65536u * uint(", c, ".z)");
     }
     case Kind::samples: {
         EXPECTS(samples_);
         const size_t base = samples_->size();
-        one.append(*samples_);
+        given.append(*samples_);
         return concat(base);
     }
     case Kind::tile:
-        if (std::find(tiles.begin(), tiles.end(), one.tile) == tiles.end()) tiles.push_back(one.tile);
-        return one.tile.sampler();
+        if (std::find(tiles.begin(), tiles.end(), given.tile) == tiles.end()) tiles.push_back(given.tile);
+        return given.tile.sampler();
     case Kind::call:
-        return text(one.inner.front(), far);
+        return text(given.inner.front(), far);
     }
     return {};
 }
 
 std::string CallWriter::text(const GlslCall& call, std::optional<bool> far) {
     std::vector<std::string> arguments;
-    for (const GlslCall::Argument& one : call.arguments())
-        arguments.push_back(argument(one, far));
+    for (const GlslCall::Argument& given : call.arguments())
+        arguments.push_back(argument(given, far));
     std::string turn;
     if (const std::optional<glm::dquat>& q = call.rotation()) {
         turn = slot({q->x, q->y, q->z}, q->w);

@@ -41,7 +41,7 @@ class ColliderTable {
     static constexpr size_t clusterSize = 16;
     static constexpr int mostTurns =
         1 << 20;  // of a molecule on its ways through a frame: 0.1 s of a GPU's lane
-    // Of a vertex in a substep of the ping-pong path: all rasterisers take so many.
+    // All rasterisers take so many of a vertex in a substep of the ping-pong path.
     static constexpr int mostTurnsOfPass = mostTurns / 32;
     static constexpr size_t mostNear = 16;  // that a vertex has a list of; with more it looks at all
     struct Member {

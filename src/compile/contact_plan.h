@@ -67,7 +67,7 @@ struct ContactPlan {
 
     bool any() const { return !groups.empty(); }
     // Returns the contact of a group of the plan, or null.
-    const ContactGroup* of(size_t group) const {
+    const ContactGroup* find(size_t group) const {
         const auto found = std::find_if(groups.begin(), groups.end(),
                                         [&](const ContactGroup& each) { return each.group == group; });
         return found == groups.end() ? nullptr : &*found;

@@ -48,15 +48,16 @@ std::string element(int number) {
 // turned.
 std::array<int, 3> widestTriangle(const Molecule& molecule) {
     const int count = int(molecule.vertices.size());
-    const auto at = [&](int v) { return molecule.vertices[size_t(v)].position; };
+    const auto position = [&](int v) { return molecule.vertices[size_t(v)].position; };
     const auto furthest = [&](const auto& distance) {
         int best = 0;
         for (int v = 1; v < count; ++v)
             if (distance(v) > distance(best)) best = v;
         return best;
     };
-    const int a = 0, b = furthest([&](int v) { return glm::length(at(v) - at(a)); });
-    const int c = furthest([&](int v) { return glm::length(glm::cross(at(v) - at(a), at(b) - at(a))); });
+    const int a = 0, b = furthest([&](int v) { return glm::length(position(v) - position(a)); });
+    const int c = furthest(
+        [&](int v) { return glm::length(glm::cross(position(v) - position(a), position(b) - position(a))); });
     return {a, b, c};
 }
 
@@ -72,16 +73,16 @@ std::string solveText(const CorotatedPattern& pattern) {
     std::string out =
         "\n// correction = A^-1 residual\nvoid applyInverse()\n{\n    for (int i = 0; i < VERTICES; ++i) {\n"
         "        correction[i] = residual[i];\n    }\n";
-    const auto at = [&](size_t place) { return concat("correction[", pattern.order[place], "]"); };
+    const auto element = [&](size_t place) { return concat("correction[", pattern.order[place], "]"); };
     const size_t count = pattern.order.size();
     for (size_t p = 0; p < count; ++p)
         for (size_t n = 0; n < pattern.below[p].size(); ++n)
-            out += concat("    ", at(size_t(pattern.below[p][n])), " -= ", block(pattern.block[p][n]), " * ",
-                          at(p), ";\n");
+            out += concat("    ", element(size_t(pattern.below[p][n])), " -= ", block(pattern.block[p][n]),
+                          " * ", element(p), ";\n");
     for (size_t p = count; p-- > 0;) {
-        out += concat("    ", at(p), " = ", block(pattern.diagonal[p]), " * ", at(p), ";\n");
+        out += concat("    ", element(p), " = ", block(pattern.diagonal[p]), " * ", element(p), ";\n");
         for (size_t n = 0; n < pattern.below[p].size(); ++n)
-            out += concat("    ", at(p), " -= ", at(size_t(pattern.below[p][n])), " * ",
+            out += concat("    ", element(p), " -= ", element(size_t(pattern.below[p][n])), " * ",
                           block(pattern.block[p][n]), ";\n");
     }
     return out + "}\n";

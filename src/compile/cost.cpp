@@ -50,8 +50,8 @@ ReadingCost& operator+=(ReadingCost& a, const ReadingCost& b) {
 template <typename Shaped>
 ReadingCost costOfAll(const std::vector<Shaped>& all) {
     ReadingCost out;
-    for (const Shaped& one : all)
-        out += costOf(*one.shape);
+    for (const Shaped& shaped : all)
+        out += costOf(*shaped.shape);
     return out;
 }
 

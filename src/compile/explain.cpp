@@ -61,25 +61,25 @@ static void listPasses(std::ostringstream& out, const GroupPlan& group) {
 static std::string kernelParts(const GroupPlan& group) {
     const Needs& needs = group.needs;
     std::string parts = "motion";
-    const auto with = [&](bool need, const char* what) {
+    const auto add = [&](bool need, const char* what) {
         if (need) parts += concat(", ", what);
     };
-    with(needs.records && !needs.release, "anchors follow");
-    with(needs.release, "anchors follow and pins may be released");
-    with(needs.springs, "springs");
-    with(needs.actuation, "muscles");
-    with(needs.steers, "steering");
-    with(needs.gravity, "gravity");
-    with(needs.drag && !needs.directionalDrag, "drag");
-    with(needs.directionalDrag, "drag by direction");
-    with(needs.fields, "fields");
-    with(needs.forces, "forces");
-    with(needs.wind, "wind");
-    with(needs.thrust, "thrust");
-    with(needs.collide, "colliders");
-    with(needs.normals, "normals where drawn");
-    with(needs.life, "death");
-    with(true, "watched");
+    add(needs.records && !needs.release, "anchors follow");
+    add(needs.release, "anchors follow and pins may be released");
+    add(needs.springs, "springs");
+    add(needs.actuation, "muscles");
+    add(needs.steers, "steering");
+    add(needs.gravity, "gravity");
+    add(needs.drag && !needs.directionalDrag, "drag");
+    add(needs.directionalDrag, "drag by direction");
+    add(needs.fields, "fields");
+    add(needs.forces, "forces");
+    add(needs.wind, "wind");
+    add(needs.thrust, "thrust");
+    add(needs.collide, "colliders");
+    add(needs.normals, "normals where drawn");
+    add(needs.life, "death");
+    add(true, "watched");
     return parts;
 }
 
@@ -127,8 +127,8 @@ static std::string leftOut(const GroupPlan& group, bool fused) {
 static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& group) {
     std::vector<std::string> out;
     for (const auto* kind : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
-        for (const GroupForces::One& one : *kind) {
-            const Force& force = plan.forces[one.force];
+        for (const GroupForces::Entry& entry : *kind) {
+            const Force& force = plan.forces[entry.force];
             out.push_back(force.name.empty()
                               ? kindName(*force.shape)
                               : concat(kindName(*force.shape), " \"", printable(force.name), "\""));

@@ -67,8 +67,8 @@ class ColliderWriter {
         }
         const double reach = out.swept ? collider.thickness + *reachOf(*collider.shape) : 0;
         result.moving.push_back({std::move(path), result.parameters.size(), turns, out.swept, reach});
-        const std::string lattice = slot({}), at = slot({}), rate = slot({});
-        out.before = concat("    vec3 arm", index, " = ((anchor - ", lattice, ".xyz) - ", at,
+        const std::string lattice = slot({}), position = slot({}), rate = slot({});
+        out.before = concat("    vec3 arm", index, " = ((anchor - ", lattice, ".xyz) - ", position,
                             ".xyz) + (c.position - ", rate, ".xyz * time);\n");
         out.velocity = rate + ".xyz";
         frame.anchor = "vec3(0.0)", frame.position = concat("arm", index);

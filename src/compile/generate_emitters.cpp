@@ -47,13 +47,13 @@ size_t addSurface(const Scene& scene, const Emitter& emitter, std::vector<glm::v
     count = 0;
     for (const int t : select(mesh, emitter.select).triangles) {
         const auto corner = [&](int i) { return mesh.positions[size_t(mesh.triangles[size_t(t)][i])]; };
-        const glm::dvec3 one = corner(1) - corner(0), two = corner(2) - corner(0);
-        const double own = 0.5 * glm::length(glm::cross(one, two));
+        const glm::dvec3 first = corner(1) - corner(0), second = corner(2) - corner(0);
+        const double own = 0.5 * glm::length(glm::cross(first, second));
         if (!(own > 0)) continue;
         area += own;
         samples.push_back(four(corner(0) - origin, area / all));
-        samples.push_back(four(one));
-        samples.push_back(four(two));
+        samples.push_back(four(first));
+        samples.push_back(four(second));
         ++count;
     }
     samples[samples.size() - 3].w = 1;

@@ -15,17 +15,17 @@ class ForceWriter {
     std::string pulls, thrusts, anyThrusts;  // statements
 
     void add(const Force& force, size_t index) {
-        const GroupForces::One one{index, result.parameterCount};
-        std::visit([&](const auto& kind) { add(kind, one, isFar(force)); }, *force.shape);
+        const GroupForces::Entry entry{index, result.parameterCount};
+        std::visit([&](const auto& kind) { add(kind, entry, isFar(force)); }, *force.shape);
     }
 
     std::string slot() { return concat("forceParameters[", result.parameterCount++, "]"); }
 
   private:
-    void add(const WindForce&, const GroupForces::One& one, bool) { result.winds.push_back(one); }
+    void add(const WindForce&, const GroupForces::Entry& entry, bool) { result.winds.push_back(entry); }
 
-    void add(const ThrustForce&, const GroupForces::One& one, bool) {
-        result.thrusts.push_back(one);
+    void add(const ThrustForce&, const GroupForces::Entry& entry, bool) {
+        result.thrusts.push_back(entry);
         const std::string a = slot();
         thrusts +=
             concat("    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a, ".y, ", a, ".z);\n");
@@ -34,9 +34,9 @@ class ForceWriter {
 
     // Every other kind is an acceleration that depends on the place.
     template <typename Pull>
-    void add(const Pull& pull, const GroupForces::One& one, bool far) {
-        result.pulls.push_back(one);
-        CallWriter writer("forceParameters[#]", one.slot);
+    void add(const Pull& pull, const GroupForces::Entry& entry, bool far) {
+        result.pulls.push_back(entry);
+        CallWriter writer("forceParameters[#]", entry.slot);
         pulls += concat("    a += ", writer.text(pull.call(), far), ";\n");
         result.parameterCount += writer.parameters.size();
     }

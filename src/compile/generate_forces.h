@@ -17,11 +17,11 @@ struct GroupForces {
     //   vec3 thrustedOver(vec3 velocity, float time)          after any time, s
     //   vec3 withWind(vec3 velocity)                          m/s, of the fluid; always
     std::string source;
-    struct One {
+    struct Entry {
         size_t force = 0;  // its index in the scene
         size_t slot = 0;   // of its first parameter
     };
-    std::vector<One> pulls, thrusts, winds;
+    std::vector<Entry> pulls, thrusts, winds;
     size_t windSlot = 0;  // of the winds' sum
     size_t parameterCount = 0;
 

@@ -17,7 +17,7 @@ namespace shoal {
 
 namespace {
 
-std::string at(const char* array, int index) {
+std::string element(const char* array, int index) {
     return concat(array, "[", index, "]");
 }
 
@@ -113,8 +113,8 @@ std::string forceText(const Spring& spring, const SpringText& numbers, const std
                       const std::string& relative) {
     return concat(numbers.load, "    f = sprung(", way, ", ", numbers.damped ? relative : "vec3(0.0)", ", ",
                   numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", ",
-                  at("inverseMass", spring.a), " + ", at("inverseMass", spring.b), ");\n    ",
-                  at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+                  element("inverseMass", spring.a), " + ", element("inverseMass", spring.b), ");\n    ",
+                  element("force", spring.a), " += f;\n    ", element("force", spring.b), " -= f;\n");
 }
 
 std::string springText(const Molecule& molecule, const Needs& needs) {
@@ -126,8 +126,8 @@ std::string springText(const Molecule& molecule, const Needs& needs) {
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         out += forceText(spring, numbersOf(molecule, i, needs),
-                         concat(at("x", spring.a), " - ", at("x", spring.b)),
-                         concat(at("w", spring.a), " - ", at("w", spring.b)));
+                         concat(element("x", spring.a), " - ", element("x", spring.b)),
+                         concat(element("w", spring.a), " - ", element("w", spring.b)));
     }
     return out + "}\n";
 }
@@ -173,10 +173,10 @@ std::string normalText(const Molecule& molecule) {
         "    for (int i = 0; i < VERTICES; ++i) {\n        normal[i] = vec3(0.0);\n    }\n    vec3 n;\n";
     std::vector<bool> covered(molecule.vertices.size());
     for (const Triangle& t : molecule.triangles) {
-        out += concat("    n = areaVector(", at("probe", t.b), " - ", at("probe", t.a), ", ",
-                      at("probe", t.c), " - ", at("probe", t.a), ");\n");
+        out += concat("    n = areaVector(", element("probe", t.b), " - ", element("probe", t.a), ", ",
+                      element("probe", t.c), " - ", element("probe", t.a), ");\n");
         for (const int corner : {t.a, t.b, t.c}) {
-            out += concat("    ", at("normal", corner), " += n;\n");
+            out += concat("    ", element("normal", corner), " += n;\n");
             covered[size_t(corner)] = true;
         }
     }

@@ -34,8 +34,9 @@ bool isFar(const Force& force) {
 static void packBooks(const Lifecycle& life, GroupState& start) {
     const bool stack = life.allocator == Allocator::stack;
     if (life.emitters.empty() || (!stack && life.allocator != Allocator::heap)) return;
-    for (const glm::vec2& one : start.lives)
-        start.ends.push_back(one.y > 0 ? double(one.y - one.x) : -std::numeric_limits<double>::infinity());
+    for (const glm::vec2& ageAndLife : start.lives)
+        start.ends.push_back(ageAndLife.y > 0 ? double(ageAndLife.y - ageAndLife.x)
+                                              : -std::numeric_limits<double>::infinity());
     for (size_t place = start.lives.size(); stack && place-- > 0;)
         if (start.lives[place].y <= 0) start.freed.push_back(uint32_t(place));
     if (stack) start.freed.resize(start.lives.size());

@@ -208,8 +208,8 @@ void checkCounts(const Scene& scene) {
 
 namespace {
 
-// What a scene says of a step, and its groups with their needs and solvers: nothing is placed, and no
-// distance field is read. Error: as checkPlan() before a baking.
+// Plans a step, and the groups with their needs and solvers: nothing is placed, and no distance field is
+// read. Error: as checkPlan() before a baking.
 Plan planGroups(const Scene& scene, const CompileOptions& options) {
     checkCounts(scene);
     for (const Collider& collider : scene.colliders)

@@ -111,8 +111,8 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
         const GroupPlan& group = plan.groups[contact.group];
         const double reach = 2 * plan.contact.largestRadius;
         std::vector<size_t> cells;
-        const size_t there = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
-        for (size_t m = 0; m < there; ++m) {
+        const size_t count = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
+        for (size_t m = 0; m < count; ++m) {
             const glm::dvec3 place =
                 glm::floor((glm::dvec3(group.start.anchors[m]) +
                             glm::dvec3(group.start.positions[m * size_t(group.vertexCount)])) /
@@ -127,12 +127,12 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
             others += double(i - first) * double(i - first);
             first = i;
         }
-        if (there == 0 || others / double(there) <= many) continue;
+        if (count == 0 || others / double(count) <= many) continue;
         plan.warnings.push_back(
             {scene.groups[group.index].contact->location,
              concat(
                  "the molecules of \"", group.name, "\" start crowded: one has about ",
-                 std::round(others / double(there)), " others within ", reach,
+                 std::round(others / double(count)), " others within ", reach,
                  " m, where their spheres may touch. Each pair is looked at, which takes long, and a sphere "
                  "keeps at most ",
                  plan.contact.listLength, " of them: a larger place or a smaller radius helps")});

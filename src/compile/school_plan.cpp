@@ -155,12 +155,12 @@ class Planner {
 
 const SchoolBodies& SchoolPlan::bodiesOf(size_t group) const {
     return *std::find_if(bodies.begin(), bodies.end(),
-                         [group](const SchoolBodies& one) { return one.group == group; });
+                         [group](const SchoolBodies& candidate) { return candidate.group == group; });
 }
 
 const SchoolMember* SchoolPlan::memberOf(size_t group) const {
     const auto found = std::find_if(members.begin(), members.end(),
-                                    [group](const SchoolMember& one) { return one.group == group; });
+                                    [group](const SchoolMember& member) { return member.group == group; });
     return found == members.end() ? nullptr : &*found;
 }
 

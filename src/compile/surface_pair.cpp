@@ -6,12 +6,12 @@
 namespace shoal {
 
 static SurfacePair withRule(const Scene& scene, const std::string& a, const std::string& b,
-                            SurfacePair otherwise) {
+                            SurfacePair fallback) {
     for (const SurfaceRule& rule : scene.surfacePairs) {
         if (!(rule.a == a && rule.b == b) && !(rule.a == b && rule.b == a)) continue;
-        return {rule.restitution.value_or(otherwise.restitution), rule.friction.value_or(otherwise.friction)};
+        return {rule.restitution.value_or(fallback.restitution), rule.friction.value_or(fallback.friction)};
     }
-    return otherwise;
+    return fallback;
 }
 
 SurfacePair surfacePair(const Scene& scene, const Group& group, const Collider& collider) {

@@ -1,4 +1,4 @@
-// What the program is busy with, for a user who waits: BusyWatch (run/progress.h) tells what takes long.
+// An activity is what the program is busy with: BusyWatch (run/progress.h) tells those that take long.
 #pragma once
 
 #include <string>

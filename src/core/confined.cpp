@@ -31,7 +31,7 @@ constexpr bool limitsMemory =
     true;
 #endif
 
-double now() {
+double steadyTime() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
@@ -44,11 +44,11 @@ double addressSpace() {
 }
 
 // Soft limits can be raised later, up to the hard one.
-void setLimit(decltype(RLIMIT_AS) what, double now, double most) {
+void setLimit(decltype(RLIMIT_AS) what, double soft, double most) {
     rlimit limit{};
     if (getrlimit(what, &limit) != 0) return;
     limit.rlim_max = std::min(limit.rlim_max, rlim_t(most));
-    limit.rlim_cur = std::min(limit.rlim_max, rlim_t(now));
+    limit.rlim_cur = std::min(limit.rlim_max, rlim_t(soft));
     setrlimit(what, &limit);
 }
 
@@ -122,7 +122,7 @@ void ToParent::write(const void* data, size_t bytes) {
 
 Confined::Confined(const Location& file, const ConfinedLimits& limits,
                    const std::function<void(ToParent&)>& work)
-    : file_(file), limits_(limits), start_(now()) {
+    : file_(file), limits_(limits), start_(steadyTime()) {
     const double memoryBefore = addressSpace();
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(concat("no pipe to a reader: ", std::strerror(errno)));
@@ -177,7 +177,7 @@ uint64_t Confined::nextArray(size_t elementBytes) {
 void Confined::read(void* data, size_t bytes) {
     char* to = static_cast<char*>(data);
     while (bytes > 0) {
-        const double left = start_ + limits_.clockFor(fileBytes_) - now();
+        const double left = start_ + limits_.clockFor(fileBytes_) - steadyTime();
         if (left <= 0) failTime(limits_.clockFor(fileBytes_), "");
         pollfd ready{pipe_, POLLIN, 0};
         const int some = poll(&ready, 1, int(std::min(1000 * left + 1, 1e6)));
@@ -200,8 +200,8 @@ std::string Confined::filesText() const {
                   " bytes in all (SHOAL_TRUST_MODELS=1 reads without limits)");
 }
 
-void Confined::failTime(double seconds, const char* of) const {
-    fail(concat("takes more than ", seconds, " s", of, ", ", filesText()));
+void Confined::failTime(double seconds, const char* what) const {
+    fail(concat("takes more than ", seconds, " s", what, ", ", filesText()));
 }
 
 void Confined::failEnded() {

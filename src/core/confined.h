@@ -85,7 +85,7 @@ class Confined {
     void read(void* data, size_t bytes);
     [[noreturn]] void fail(const std::string& message) const;
     [[noreturn]] void failEnded();
-    [[noreturn]] void failTime(double seconds, const char* of) const;
+    [[noreturn]] void failTime(double seconds, const char* what) const;
     std::string filesText() const;
 
     Location file_;

@@ -25,10 +25,10 @@ class Describe {
   public:
     // `name`: the word of a variant's alternative, or what the object is called in docs.
     Describe(std::string name, std::string sentence) {
-        it_.name_ = std::move(name);
-        it_.sentence_ = std::move(sentence);
-        it_.usual_ = &usual();
-        it_.type_ = &typeid(S);
+        description_.name_ = std::move(name);
+        description_.sentence_ = std::move(sentence);
+        description_.usual_ = &usual();
+        description_.type_ = &typeid(S);
     }
 
     // Numbers, whole numbers, seeds, flags, texts, vectors, objects and lists of objects, by their types; any
@@ -66,10 +66,10 @@ class Describe {
     Describe& word(const char* name, Enum S::*member, const std::vector<std::string>& words, Says says) {
         add(name, Key::Kind::word, member, std::move(says));
         last().words = words;
-        last().member.index = [](const void* at) { return int(*static_cast<const Enum*>(at)); };
-        last().member.choose = [](void* at, int index) {
-            *static_cast<Enum*>(at) = Enum(index);
-            return at;
+        last().member.index = [](const void* object) { return int(*static_cast<const Enum*>(object)); };
+        last().member.choose = [](void* object, int index) {
+            *static_cast<Enum*>(object) = Enum(index);
+            return object;
         };
         return *this;
     }
@@ -80,14 +80,14 @@ class Describe {
         add(name, Key::Kind::word, member, std::move(says));
         last().words = words;
         last().member = {.offset = last().member.offset};
-        last().member.index = [](const void* at) {
-            const auto& value = *static_cast<const std::optional<Enum>*>(at);
+        last().member.index = [](const void* object) {
+            const auto& value = *static_cast<const std::optional<Enum>*>(object);
             return value ? int(*value) + 1 : 0;
         };
-        last().member.choose = [](void* at, int index) {
-            *static_cast<std::optional<Enum>*>(at) =
+        last().member.choose = [](void* object, int index) {
+            *static_cast<std::optional<Enum>*>(object) =
                 index > 0 ? std::optional(Enum(index - 1)) : std::nullopt;
-            return at;
+            return object;
         };
         return *this;
     }
@@ -104,8 +104,10 @@ class Describe {
         using Element = typename std::remove_reference_t<decltype(make(std::declval<S&>()))>::value_type;
         Key& key = addKey(name, Key::Kind::list, {"", std::move(sentence)});
         reach<std::vector<Element>>(key);
-        key.member.make = [](void* at) -> void* { return &make(*static_cast<S*>(at)); };
-        key.member.look = [](const void* at) -> const void* { return look(*static_cast<const S*>(at)); };
+        key.member.make = [](void* object) -> void* { return &make(*static_cast<S*>(object)); };
+        key.member.look = [](const void* object) -> const void* {
+            return look(*static_cast<const S*>(object));
+        };
         return *this;
     }
     // The keys of a struct within this one, beside this one's own.
@@ -114,7 +116,7 @@ class Describe {
         for (Key key : describe(static_cast<const M*>(nullptr)).keys()) {
             EXPECTS(key.kind != Key::Kind::byHand);
             key.member.offset += offsetOf(member);
-            it_.keys_.push_back(std::move(key));
+            description_.keys_.push_back(std::move(key));
         }
         return *this;
     }
@@ -140,14 +142,14 @@ class Describe {
     }
 
     // The struct whose keys the key before holds, which is read by hand.
-    Describe& of(const Description& keys) {
+    Describe& holdsKeys(const Description& keys) {
         last().objects = {&keys};
         return *this;
     }
 
     // The keys of a whole file, such as one of "shoal-scene-1".
     Describe& format(const std::string& name) {
-        it_.format_ = name;
+        description_.format_ = name;
         const auto nothing = [](JsonReader&, S&, void*) {};
         byHand("$schema", {}, {"string", "The schema, for editors."}, nothing);
         byHand("format", {.constant = name},
@@ -171,7 +173,7 @@ class Describe {
     }
     // The key before means something only where `key`, which stands before it, says one of the words.
     Describe& only(const char* key, std::vector<std::string> words) {
-        EXPECTS(it_.find(key));
+        EXPECTS(description_.find(key));
         last().only.push_back({key, std::move(words)});
         return *this;
     }
@@ -197,20 +199,20 @@ class Describe {
     }
     // Where the object stands.
     Describe& location(Location S::*member) {
-        it_.location_ = offsetOf(member);
+        description_.location_ = offsetOf(member);
         return *this;
     }
     // Sets what follows from the keys that a file gives, such as a default that depends on another key; it
     // runs before the rule.
     Describe& derive(void (*follow)(S&, const Where&)) {
-        it_.derive_ = [follow](void* object, const Where& where, void*) {
+        description_.derive_ = [follow](void* object, const Where& where, void*) {
             follow(*static_cast<S*>(object), where);
         };
         return *this;
     }
     template <typename Context>
     Describe& derive(void (*follow)(S&, const Where&, Context&)) {
-        it_.derive_ = [follow](void* object, const Where& where, void* context) {
+        description_.derive_ = [follow](void* object, const Where& where, void* context) {
             follow(*static_cast<S*>(object), where, *static_cast<Context*>(context));
         };
         return *this;
@@ -218,21 +220,21 @@ class Describe {
     // A rule between keys: throws an Error where it is broken. `schema`: as much of it as JSON Schema can
     // say.
     Describe& rule(void (*holds)(const S&, const Where&), const char* schema = "") {
-        it_.schema_ = schema;
-        it_.rule_ = [holds](const void* object, const Where& where) {
+        description_.schema_ = schema;
+        description_.rule_ = [holds](const void* object, const Where& where) {
             holds(*static_cast<const S*>(object), where);
         };
         return *this;
     }
 
-    operator Description() { return std::move(it_); }
+    operator Description() { return std::move(description_); }
 
   private:
     static const S& usual() {
-        static const S it{};
-        return it;
+        static const S value{};
+        return value;
     }
-    Key& last() { return it_.keys_.back(); }
+    Key& last() { return description_.keys_.back(); }
 
     template <typename M>
     static ptrdiff_t offsetOf(M S::*member) {
@@ -240,7 +242,7 @@ class Describe {
         return reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
     }
     Key& addKey(const char* name, Key::Kind kind, Says says) {
-        Key& key = it_.keys_.emplace_back();
+        Key& key = description_.keys_.emplace_back();
         key.name = name;
         key.kind = kind;
         key.says = std::move(says);
@@ -292,23 +294,25 @@ class Describe {
         using T = typename Within<M>::type;
         if constexpr (Within<M>::optional) {
             key.member.optional = true;
-            key.member.reset = [](void* at) { static_cast<M*>(at)->reset(); };
-            key.member.make = [](void* at) -> void* { return &static_cast<M*>(at)->emplace(); };
-            key.member.look = [](const void* at) -> const void* {
-                const M& value = *static_cast<const M*>(at);
+            key.member.reset = [](void* object) { static_cast<M*>(object)->reset(); };
+            key.member.make = [](void* object) -> void* { return &static_cast<M*>(object)->emplace(); };
+            key.member.look = [](const void* object) -> const void* {
+                const M& value = *static_cast<const M*>(object);
                 return value ? &*value : nullptr;
             };
         }
         if constexpr (Within<M>::list) {
-            key.member.count = [](const void* at) { return static_cast<const M*>(at)->size(); };
-            key.member.erase = [](void* at, size_t i) {
-                auto& list = *static_cast<M*>(at);
+            key.member.count = [](const void* object) { return static_cast<const M*>(object)->size(); };
+            key.member.erase = [](void* object, size_t i) {
+                auto& list = *static_cast<M*>(object);
                 list.erase(list.begin() + ptrdiff_t(i));
             };
-            key.member.clear = [](void* at) { static_cast<M*>(at)->clear(); };
-            key.member.append = [](void* at) -> void* { return &static_cast<M*>(at)->emplace_back(); };
-            key.member.element = [](const void* at, size_t i) -> const void* {
-                return &(*static_cast<const M*>(at))[i];
+            key.member.clear = [](void* object) { static_cast<M*>(object)->clear(); };
+            key.member.append = [](void* object) -> void* {
+                return &static_cast<M*>(object)->emplace_back();
+            };
+            key.member.element = [](const void* object, size_t i) -> const void* {
+                return &(*static_cast<const M*>(object))[i];
             };
         }
         if (key.kind == Key::Kind::object || key.kind == Key::Kind::list) {
@@ -339,16 +343,19 @@ class Describe {
         using Variant = std::variant<T...>;
         Key& key = last();
         key.objects = {&describe(static_cast<const T*>(nullptr))...};
-        for (const Description* one : key.objects)
-            key.words.push_back(one->name());
-        key.member.index = [](const void* at) { return int(inside(*static_cast<const M*>(at)).index()); };
-        key.member.choose = [](void* at, int index) {
-            Variant& variant = inside(*static_cast<M*>(at));
+        for (const Description* alternative : key.objects)
+            key.words.push_back(alternative->name());
+        key.member.index = [](const void* object) {
+            return int(inside(*static_cast<const M*>(object)).index());
+        };
+        key.member.choose = [](void* object, int index) {
+            Variant& variant = inside(*static_cast<M*>(object));
             return emplace(variant, size_t(index), std::index_sequence_for<T...>());
         };
-        key.member.held = [](const void* at) {
-            const Variant& variant = inside(*static_cast<const M*>(at));
-            return std::visit([](const auto& one) { return static_cast<const void*>(&one); }, variant);
+        key.member.held = [](const void* object) {
+            const Variant& variant = inside(*static_cast<const M*>(object));
+            return std::visit([](const auto& alternative) { return static_cast<const void*>(&alternative); },
+                              variant);
         };
     }
     template <typename Variant, size_t... I>
@@ -358,7 +365,7 @@ class Describe {
         return out;
     }
 
-    Description it_;
+    Description description_;
 };
 
 }  // namespace shoal

@@ -16,8 +16,8 @@ const T& held(const void* value) {
 
 void checkNumber(const std::string& path, double value, Range range, const Where& where, double largest) {
     if (std::isfinite(value) && std::abs(value) > largest)
-        throw Error(where.at(path), "expected a number within ", largest, " of 0, found ", value);
-    if (!contains(range, value)) needWithin(where.at(path), value, range);
+        throw Error(where.locate(path), "expected a number within ", largest, " of 0, found ", value);
+    if (!contains(range, value)) needWithin(where.locate(path), value, range);
 }
 
 template <int N>
@@ -116,7 +116,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     for (const Key& key : keys_) {
         if (const Condition* condition = unmet(key, out)) {
             if (reader.has(key.name))
-                throw Error(reader.at(key.name), "\"", key.name, "\" needs ", text(*condition));
+                throw Error(reader.locate(key.name), "\"", key.name, "\" needs ", text(*condition));
             continue;
         }
         if (key.needed) reader.require(key.name);
@@ -171,7 +171,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
             std::vector<int> numbers;
             if (!r.get(name, numbers, range)) return false;
             if (numbers.size() != 3)
-                throw Error(r.at(name), "expected three whole numbers, found ", numbers.size());
+                throw Error(r.locate(name), "expected three whole numbers, found ", numbers.size());
             value = {numbers[0], numbers[1], numbers[2]};
             return true;
         });
@@ -179,7 +179,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         return fill(std::string(), [&](std::string& value) {
             if (!r.get(name, value)) return false;
             if (key.notEmpty && value.empty())
-                throw Error(r.at(name), "expected ", key.says.unit, ", found an empty string");
+                throw Error(r.locate(name), "expected ", key.says.unit, ", found an empty string");
             return true;
         });
     case Kind::direction:
@@ -268,12 +268,12 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
         return;
     case Kind::whole:
         if ((!key.unlessZero || held<int>(value) != 0) && !contains(range, held<int>(value)))
-            needWithin(where.at(key.name), held<int>(value), range);
+            needWithin(where.locate(key.name), held<int>(value), range);
         return;
     case Kind::whole3:
         for (int i = 0; i < 3; ++i)
             if (!contains(range, held<glm::ivec3>(value)[i]))
-                needWithin(where.at(concat(key.name, "[", i, "]")), held<glm::ivec3>(value)[i], range);
+                needWithin(where.locate(concat(key.name, "[", i, "]")), held<glm::ivec3>(value)[i], range);
         return;
     case Kind::vector2:
     case Kind::ends:
@@ -283,26 +283,26 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
         return checkNumbers(key, held<glm::dvec3>(value), range, where, largest);
     case Kind::direction:
         checkNumbers(key, held<glm::dvec3>(value), range, where, largest);
-        return checkDirection(held<glm::dvec3>(value), where.at(key.name));
+        return checkDirection(held<glm::dvec3>(value), where.locate(key.name));
     case Kind::span:
         checkNumbers(key, held<glm::dvec2>(value), range, where, largest);
-        return checkSpan(held<glm::dvec2>(value), where.at(key.name));
+        return checkSpan(held<glm::dvec2>(value), where.locate(key.name));
     case Kind::box:
         for (int i = 0; i < 3; ++i) {
             checkNumber(concat(key.name, ".low[", i, "]"), held<Box>(value).low[i], {}, where, largest);
             checkNumber(concat(key.name, ".high[", i, "]"), held<Box>(value).high[i], {}, where, largest);
         }
-        return checkBox(held<Box>(value), key.flatBox, where.at(key.name + ".high"));
+        return checkBox(held<Box>(value), key.flatBox, where.locate(key.name + ".high"));
     case Kind::rotation: {
         const glm::dquat& q = held<glm::dquat>(value);
         for (const double part : {q.x, q.y, q.z, q.w})
             checkNumber(key.name, part, {}, where, largest);
-        return checkRotation(q, where.at(key.name));
+        return checkRotation(q, where.locate(key.name));
     }
     case Kind::word:
     case Kind::variant: {
         const int index = key.member.index(value);
-        needWithin(where.at(key.name), index, Range::between(0, double(key.words.size()) - 1));
+        needWithin(where.locate(key.name), index, Range::between(0, double(key.words.size()) - 1));
         if (key.kind == Kind::variant)
             key.objects[size_t(index)]->checkAny(key.member.held(value), where, largest);
         return;
@@ -340,8 +340,8 @@ JsonValue Description::writeKey(const Key& key, const void* object, const void* 
     const void* value = key.value(object);
     if (!value) return {};
     const void* unless = usual ? key.value(usual) : nullptr;
-    const auto unlessSame = [&]<typename T>(const T& now, auto make) {
-        return unless && now == held<T>(unless) ? JsonValue() : make(now);
+    const auto unlessSame = [&]<typename T>(const T& current, auto make) {
+        return unless && current == held<T>(unless) ? JsonValue() : make(current);
     };
     switch (key.kind) {
     case Kind::number:

@@ -22,10 +22,10 @@ class Description;
 
 // A member of whatever type, by what is needed of it.
 struct Member {
-    ptrdiff_t offset = 0;                                // bytes, within the struct
-    void* (*make)(void*) = [](void* at) { return at; };  // the value, made where there is none
-    const void* (*look)(const void*) = [](const void* at) { return at; };  // null where there is none
-    int (*index)(const void*) = nullptr;                                   // words and variants
+    ptrdiff_t offset = 0;                                        // bytes, within the struct
+    void* (*make)(void*) = [](void* object) { return object; };  // the value, made where there is none
+    const void* (*look)(const void*) = [](const void* object) { return object; };  // null where there is none
+    int (*index)(const void*) = nullptr;                                           // words and variants
     void* (*choose)(void*, int) = nullptr;       // likewise; the alternative of a variant
     const void* (*held)(const void*) = nullptr;  // the alternative that a variant holds
     size_t (*count)(const void*) = nullptr;      // lists
@@ -63,11 +63,11 @@ struct Condition {
 
 // The value of a key that a function beside the description reads: one value, or lists of them.
 struct Form {
-    enum class Of { text, number, whole, keys, numberOrKeys };
+    enum class Value { text, number, whole, keys, numberOrKeys };
     struct List {
         size_t least = 0, most = std::numeric_limits<size_t>::max();
     };
-    Of of = Of::text;
+    Value value = Value::text;
     std::vector<List> lists = {};  // how many each holds, the outermost first
     Range range = {};              // of each number
     std::optional<double> usual = {};

@@ -80,10 +80,10 @@ std::string meaningOf(const Key& key) {
     return key.says.sentence + conditions(key);
 }
 
-std::string usualText(const Key& key, const Description& of) {
+std::string usualText(const Key& key, const Description& keys) {
     if (key.needed) return "required";
     if (!key.usual.empty()) return key.usual;
-    JsonValue usual = key.unlessZero ? JsonValue() : of.usualValue(key);
+    JsonValue usual = key.unlessZero ? JsonValue() : keys.usualValue(key);
     if (key.form.usual) usual = JsonValue::makeNumber(*key.form.usual);
     if (key.kind == Kind::object && !key.member.optional) return "as below";
     if (usual.kind == JsonValue::Kind::null) return "none";

@@ -9,6 +9,6 @@ namespace shoal {
 // "0.5", "required" or "none".
 std::string typeText(const Key& key);
 std::string meaningOf(const Key& key);  // its sentence, and beside what it means something
-std::string usualText(const Key& key, const Description& of);
+std::string usualText(const Key& key, const Description& keys);
 
 }  // namespace shoal

@@ -75,8 +75,8 @@ struct Warning {
 std::string text(const Warning& warning);
 
 // Counts in messages: "1 spring", "2 springs".
-inline std::string many(int64_t count, const char* one, const char* several) {
-    return std::to_string(count) + " " + (count == 1 ? one : several);
+inline std::string many(int64_t count, const char* singular, const char* several) {
+    return std::to_string(count) + " " + (count == 1 ? singular : several);
 }
 
 // The candidate nearest to `word` by edit distance, or empty when none is near enough to be a misspelling.

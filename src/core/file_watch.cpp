@@ -24,24 +24,24 @@ void FileWatch::watch(const std::vector<std::string>& files) {
             next.insert(*before);
             continue;
         }
-        const Stamp now = stampOf(file);
-        next.insert({file, {now, now, 0}});
+        const Stamp stamp = stampOf(file);
+        next.insert({file, {stamp, stamp, 0}});
     }
     files_ = std::move(next);
 }
 
-std::vector<std::string> FileWatch::changed(double now) {
+std::vector<std::string> FileWatch::changed(double time) {
     std::vector<std::string> out;
-    if (now - lookedAt_ < interval) return out;
-    lookedAt_ = now;
+    if (time - lookedAt_ < interval) return out;
+    lookedAt_ = time;
     for (auto& [file, watched] : files_) {
         const Stamp stamp = stampOf(file);
         if (!(stamp == watched.seen)) {
             watched.seen = stamp;
-            watched.since = now;
+            watched.since = time;
             continue;
         }
-        if (stamp == watched.known || now - watched.since < (stamp.there ? interval : goneAfter)) continue;
+        if (stamp == watched.known || time - watched.since < (stamp.exists ? interval : goneAfter)) continue;
         watched.known = stamp;
         out.push_back(file);
     }

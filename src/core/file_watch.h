@@ -20,8 +20,8 @@ class FileWatch {
     // Watches these files from now on. Their present state is no change, except of those watched before.
     void watch(const std::vector<std::string>& files);
 
-    // Looks, unless the last look is too near; `now` (s) grows. Each change is told once.
-    std::vector<std::string> changed(double now);
+    // Looks, unless the last look is too near; `time` (s) grows. Each change is told once.
+    std::vector<std::string> changed(double time);
 
     // As the file is now is no change: one's own writing.
     void accept(const std::string& file);
@@ -30,7 +30,7 @@ class FileWatch {
 
   private:
     struct Stamp {
-        bool there = false;
+        bool exists = false;
         uint64_t bytes = 0;
         int64_t time = 0;  // in the file system's clock
         bool operator==(const Stamp&) const = default;

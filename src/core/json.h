@@ -91,7 +91,7 @@ class JsonReader {
     JsonReader(const JsonValue& object, std::string file, std::string path = "$");
 
     bool has(const std::string& key) const { return object_->find(key) != nullptr; }
-    Location at(const std::string& key) const;  // of the key's value, or of the object if it is absent
+    Location locate(const std::string& key) const;  // of the key's value, or of the object if it is absent
     Location here() const;
     const std::string& file() const { return file_; }
     const std::string& path() const { return path_; }

@@ -32,8 +32,8 @@ JsonValue toJson(const T& value) {
         return value ? toJson(*value) : JsonValue();
     } else if constexpr (requires { value.begin(); }) {
         JsonValue out = JsonValue::makeArray();
-        for (const auto& one : value)
-            out.items.push_back(toJson(one));
+        for (const auto& element : value)
+            out.items.push_back(toJson(element));
         return out;
     } else {
         return JsonValue::makeVector(value);

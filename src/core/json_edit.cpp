@@ -96,15 +96,16 @@ class Edited {
     }
     // In front of the first that is kept, over those before it.
     void addFront(size_t first, std::vector<TextChange>& changes) const {
-        std::string with;
+        std::string inserted;
         const auto put = [&](const std::vector<std::string>& words) {
             for (const std::string& word : words)
-                with += word + separator();
+                inserted += word + separator();
         };
         put(front_);
         for (size_t i = 0; i < first; ++i)
             put(parts_[i].added);
-        if (first > 0 || !with.empty()) changes.push_back({parts_.front().begin, parts_[first].begin, with});
+        if (first > 0 || !inserted.empty())
+            changes.push_back({parts_.front().begin, parts_[first].begin, inserted});
     }
     void replaceAll(std::vector<TextChange>& changes) const {
         std::vector<std::string> words = front_;
@@ -112,14 +113,14 @@ class Edited {
             words.insert(words.end(), part.added.begin(), part.added.end());
         const bool lines = ownLines() && !words.empty();
         const bool array = original_->kind == Kind::array;
-        std::string with = array ? "[" : "{", between;
-        if (lines) with += "\n" + indentAt(*text_, parts_.front().begin);
+        std::string inserted = array ? "[" : "{", between;
+        if (lines) inserted += "\n" + indentAt(*text_, parts_.front().begin);
         for (const std::string& word : words) {
-            with += between + word;
+            inserted += between + word;
             between = separator();
         }
-        if (lines) with += "\n" + indentAt(*text_, original_->end - 1);
-        changes.push_back({original_->begin, original_->end, with + (array ? "]" : "}")});
+        if (lines) inserted += "\n" + indentAt(*text_, original_->end - 1);
+        changes.push_back({original_->begin, original_->end, inserted + (array ? "]" : "}")});
     }
 
     const std::string* text_;
@@ -156,14 +157,14 @@ void changeArray(const std::string& text, const JsonValue& original, const JsonV
                  const JsonValue& after, std::vector<TextChange>& changes) {
     const Difference difference = differenceOf(before.items, after.items);
     Edited edited(text, original);
-    const size_t both = std::min(difference.before, difference.after), first = difference.first;
-    for (size_t i = first; i < first + both; ++i)
+    const size_t common = std::min(difference.before, difference.after), first = difference.first;
+    for (size_t i = first; i < first + common; ++i)
         addChanges(text, original.items[i], before.items[i], after.items[i], changes);
-    for (size_t i = first + both; i < first + difference.before; ++i)
+    for (size_t i = first + common; i < first + difference.before; ++i)
         edited.leaveOut(i);
-    const size_t at = first + both;
-    for (size_t i = at; i < first + difference.after; ++i)
-        edited.add(at > 0 ? std::optional<size_t>(at - 1) : std::nullopt, "", after.items[i]);
+    const size_t position = first + common;
+    for (size_t i = position; i < first + difference.after; ++i)
+        edited.add(position > 0 ? std::optional<size_t>(position - 1) : std::nullopt, "", after.items[i]);
     edited.finish(changes);
 }
 
@@ -192,11 +193,11 @@ void changeObject(const std::string& text, const JsonValue& original, const Json
             edited.add(behind, key, value);
             continue;
         }
-        const JsonValue& there = original.members[*index].second;
+        const JsonValue& existing = original.members[*index].second;
         if (old)
-            addChanges(text, there, *old, value, changes);
-        else if (!sameJson(there, value))
-            replace(text, there, value, changes);
+            addChanges(text, existing, *old, value, changes);
+        else if (!sameJson(existing, value))
+            replace(text, existing, value, changes);
     }
     edited.finish(changes);
 }
@@ -252,13 +253,13 @@ std::string withChanges(const std::string& text, std::vector<TextChange> changes
         return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
     });
     std::string out;
-    size_t at = 0;
+    size_t position = 0;
     for (const TextChange& change : changes) {
-        out.append(text, at, change.begin - at);
-        out += change.with;
-        at = change.end;
+        out.append(text, position, change.begin - position);
+        out += change.replacement;
+        position = change.end;
     }
-    return out.append(text, at);
+    return out.append(text, position);
 }
 
 // ---- Merging
@@ -339,12 +340,12 @@ class Merger {
     JsonValue mergeObjects(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs,
                            const std::string& path) {
         JsonValue out = JsonValue::makeObject();
-        for (const JsonValue* one : {&theirs, &mine})
-            for (const auto& [key, value] : one->members) {
+        for (const JsonValue* side : {&theirs, &mine})
+            for (const auto& [key, value] : side->members) {
                 if (out.find(key)) continue;
-                const auto both =
+                const auto result =
                     mergeOne(base.find(key), mine.find(key), theirs.find(key), path + "." + key);
-                if (both) out.add(key, *both);
+                if (result) out.add(key, *result);
             }
         return out;
     }
@@ -352,13 +353,13 @@ class Merger {
                          const std::string& path) {
         JsonValue out = JsonValue::makeArray();
         std::set<std::string> done;
-        for (const JsonValue* one : {&theirs, &mine})
-            for (const JsonValue& item : one->items) {
+        for (const JsonValue* side : {&theirs, &mine})
+            for (const JsonValue& item : side->items) {
                 const std::string& name = item.find("name")->text;
                 if (!done.insert(name).second) continue;
-                const auto both = mergeOne(named(base, name), named(mine, name), named(theirs, name),
-                                           concat(path, "[\"", name, "\"]"));
-                if (both) out.items.push_back(*both);
+                const auto result = mergeOne(named(base, name), named(mine, name), named(theirs, name),
+                                             concat(path, "[\"", name, "\"]"));
+                if (result) out.items.push_back(*result);
             }
         return out;
     }

@@ -9,10 +9,10 @@
 
 namespace shoal {
 
-// Bytes [begin, end) of a text become `with`.
+// Bytes [begin, end) of a text become `replacement`.
 struct TextChange {
     size_t begin = 0, end = 0;
-    std::string with;
+    std::string replacement;
 };
 
 // Adds the changes of `text` that turn what `before` says into what `after` says. `original` was read from

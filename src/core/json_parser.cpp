@@ -31,7 +31,7 @@ class LineCounter {
   public:
     explicit LineCounter(std::string_view text) : text_(text) {}
 
-    Position at(size_t offset) {
+    Position position(size_t offset) {
         for (; offset_ < offset && offset_ < text_.size(); ++offset_) {
             if (text_[offset_] != '\n') continue;
             ++line_;
@@ -108,7 +108,7 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
         while (last_ < text_.size() &&
                std::string_view(" \t\r\n,:").find(text_[last_]) != std::string_view::npos)
             ++last_;
-        return lines_.at(last_);
+        return lines_.position(last_);
     }
     // Over a string, number or word.
     void skipToken() {
@@ -189,8 +189,8 @@ std::string expectation(rapidjson::ParseErrorCode code) {
         {rapidjson::kParseErrorNumberMissFraction, "expected digits after the decimal point"},
         {rapidjson::kParseErrorNumberMissExponent, "expected digits in the exponent"},
     };
-    for (const auto& [of, words] : known)
-        if (of == code) return words;
+    for (const auto& [error, words] : known)
+        if (error == code) return words;
     return "expected JSON";
 }
 

@@ -53,7 +53,7 @@ Location JsonReader::here() const {
     return locate(*object_, path_);
 }
 
-Location JsonReader::at(const std::string& key) const {
+Location JsonReader::locate(const std::string& key) const {
     const JsonValue* value = object_->find(key);
     return value ? locate(*value, path_ + "." + key) : here();
 }
@@ -148,7 +148,7 @@ bool JsonReader::choose(const std::string& key, const std::vector<std::string>& 
     if (!value) return false;
     const auto word = std::find(words.begin(), words.end(), value->text);
     if (word == words.end())
-        throw Error(at(key), "unknown word \"" + value->text + "\"" + suggestion(value->text, words));
+        throw Error(locate(key), "unknown word \"" + value->text + "\"" + suggestion(value->text, words));
     out = static_cast<int>(word - words.begin());
     return true;
 }

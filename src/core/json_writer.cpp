@@ -16,16 +16,16 @@ constexpr size_t lineWidth = 120;
 std::string inQuotes(std::string_view text) {
     std::string out = "\"";
     while (!text.empty()) {
-        const Utf8 one = firstCharacter(text);
-        if (one.code == Utf8::nothing)
+        const Utf8 character = firstCharacter(text);
+        if (character.code == Utf8::nothing)
             out += "\\ufffd";
-        else if (one.code == '"' || one.code == '\\')
-            out += {'\\', char(one.code)};
-        else if (hides(one.code))
-            out += escape(one.code);
+        else if (character.code == '"' || character.code == '\\')
+            out += {'\\', char(character.code)};
+        else if (hides(character.code))
+            out += escape(character.code);
         else
-            out += text.substr(0, one.bytes);
-        text.remove_prefix(one.bytes);
+            out += text.substr(0, character.bytes);
+        text.remove_prefix(character.bytes);
     }
     return out + "\"";
 }

@@ -23,21 +23,21 @@ template <typename Keeps>
 std::string shown(std::string_view text, const Keeps& keeps) {
     std::string out;
     out.reserve(text.size());
-    for (size_t at = 0; at < text.size();) {
-        const Utf8 one = firstCharacter(text.substr(at));
-        if (one.code == Utf8::nothing)
-            out += escapedByte(text[at]);
-        else if (hides(one.code) && !keeps(text, at))
-            out += escape(one.code);
+    for (size_t offset = 0; offset < text.size();) {
+        const Utf8 character = firstCharacter(text.substr(offset));
+        if (character.code == Utf8::nothing)
+            out += escapedByte(text[offset]);
+        else if (hides(character.code) && !keeps(text, offset))
+            out += escape(character.code);
         else
-            out += text.substr(at, one.bytes);
-        at += one.bytes;
+            out += text.substr(offset, character.bytes);
+        offset += character.bytes;
     }
     return out;
 }
 
-bool breaksOrTabs(std::string_view text, size_t at) {
-    return text[at] == '\n' || text[at] == '\t';
+bool breaksOrTabs(std::string_view text, size_t offset) {
+    return text[offset] == '\n' || text[offset] == '\t';
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ std::string printable(std::string_view text) {
 }
 
 std::string printableLines(std::string_view text) {
-    return shown(text, [](std::string_view all, size_t at) {
-        return all[at] == '\n' && all.substr(at + 1).starts_with("  ");
+    return shown(text, [](std::string_view all, size_t offset) {
+        return all[offset] == '\n' && all.substr(offset + 1).starts_with("  ");
     });
 }
 
@@ -116,8 +116,8 @@ bool PrintableStream::put(std::string_view text, bool whole) {
 
 int PrintableStream::overflow(int c) {
     if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
-    const char one = traits_type::to_char_type(c);
-    return put({&one, 1}, false) ? c : traits_type::eof();
+    const char character = traits_type::to_char_type(c);
+    return put({&character, 1}, false) ? c : traits_type::eof();
 }
 
 std::streamsize PrintableStream::xsputn(const char* text, std::streamsize size) {

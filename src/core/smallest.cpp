@@ -14,8 +14,8 @@ const Key* variantOf(const Description& keys) {
 
 bool meansSomething(const Description& keys, const Key& key, const JsonValue& object) {
     return std::all_of(key.only.begin(), key.only.end(), [&](const Condition& condition) {
-        const JsonValue* there = object.find(condition.key);
-        const JsonValue value = there ? *there : keys.usualValue(*keys.find(condition.key));
+        const JsonValue* given = object.find(condition.key);
+        const JsonValue value = given ? *given : keys.usualValue(*keys.find(condition.key));
         if (condition.words.empty()) return value.kind != JsonValue::Kind::null;
         const std::string word =
             value.kind == JsonValue::Kind::boolean ? (value.boolean ? "true" : "false") : value.text;
@@ -27,12 +27,13 @@ bool meansSomething(const Description& keys, const Key& key, const JsonValue& ob
 static JsonValue smallestForm(const Key& key, size_t within, const TextOf& text) {
     const Form& form = key.form;
     if (within < form.lists.size()) {
-        const JsonValue one = smallestForm(key, within + 1, text);
-        return toJson(std::vector<JsonValue>(std::max<size_t>(1, form.lists[within].least), one));
+        const JsonValue element = smallestForm(key, within + 1, text);
+        return toJson(std::vector<JsonValue>(std::max<size_t>(1, form.lists[within].least), element));
     }
     if (!form.constant.empty()) return JsonValue::makeString(form.constant);
-    if (form.of == Form::Of::text) return JsonValue::makeString(text(key));
-    if (form.of == Form::Of::keys && key.objects.size() == 1) return smallestObject(*key.objects[0], text);
+    if (form.value == Form::Value::text) return JsonValue::makeString(text(key));
+    if (form.value == Form::Value::keys && key.objects.size() == 1)
+        return smallestObject(*key.objects[0], text);
     return JsonValue::makeNumber(std::clamp(within > 0 ? 0.0 : 1.0, form.range.least, form.range.most));
 }
 

@@ -33,7 +33,7 @@ Location Where::here() const {
     return own ? Location{file->file(), own->line, own->column, path()} : parent_->here();
 }
 
-Location Where::at(const std::string& key) const {
+Location Where::locate(const std::string& key) const {
     return in(key.c_str()).here();
 }
 
@@ -52,7 +52,7 @@ void Where::require(const std::string& key) const {
 }
 
 void needAtMost(const Where& where, const std::string& key, size_t count, size_t most) {
-    if (count > most) throw Error(where.at(key), "expected at most ", most, " ", key, ", found ", count);
+    if (count > most) throw Error(where.locate(key), "expected at most ", most, " ", key, ", found ", count);
 }
 
 void needFormat(JsonReader& root, const std::string& expected) {
@@ -62,7 +62,7 @@ void needFormat(JsonReader& root, const std::string& expected) {
     const size_t number = expected.rfind('-') + 1;
     const bool kin = format.compare(0, number, expected, 0, number) == 0 && format.size() > number &&
                      format.find_first_not_of("0123456789", number) == std::string::npos;
-    throw Error(root.at("format"), "expected the format \"", expected, "\", found \"", format, "\"",
+    throw Error(root.locate("format"), "expected the format \"", expected, "\", found \"", format, "\"",
                 kin ? ": the file is of a newer version of Shoal" : "");
 }
 
@@ -90,9 +90,9 @@ bool getRotation(JsonReader& reader, const std::string& key, glm::dquat& out) {
     std::vector<double> q;
     reader.get(key, q);
     if (q.size() != 4)
-        throw Error(reader.at(key), "expected a quaternion [x, y, z, w], found ", q.size(), " numbers");
+        throw Error(reader.locate(key), "expected a quaternion [x, y, z, w], found ", q.size(), " numbers");
     const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
-    checkRotation(glm::dquat(q[3], q[0], q[1], q[2]), reader.at(key));
+    checkRotation(glm::dquat(q[3], q[0], q[1], q[2]), reader.locate(key));
     for (double& part : q)
         part /= largest;  // before the squares, which could overflow
     out = glm::normalize(glm::dquat(q[3], q[0], q[1], q[2]));
@@ -103,7 +103,7 @@ bool getDirection(JsonReader& reader, const std::string& key, glm::dvec3& out) {
     glm::dvec3 v(0);
     if (!reader.get(key, v)) return false;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    checkDirection(v, reader.at(key));
+    checkDirection(v, reader.locate(key));
     out = glm::normalize(v / largest);
     return true;
 }
@@ -128,7 +128,7 @@ bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat) {
     if (!box) return false;
     box->need("low", out.low);
     box->need("high", out.high);
-    checkBox(out, flat, box->at("high"));
+    checkBox(out, flat, box->locate("high"));
     box->finish();
     return true;
 }
@@ -142,7 +142,7 @@ bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range 
         return true;
     }
     reader.get(key, out, range);
-    checkSpan(out, reader.at(key));
+    checkSpan(out, reader.locate(key));
     return true;
 }
 

@@ -22,7 +22,7 @@ class Where {
     Where in(const char* key, size_t index) const { return {this, key, index}; }
     Where element(size_t index) const { return {this, "", index}; }  // of an array
 
-    Location at(const std::string& key) const;
+    Location locate(const std::string& key) const;
     Location here() const;
     bool given(const std::string& key) const;  // the file has the key; of what was made in code: false
     double number(const std::string& key, double fallback) const;  // that the file gives

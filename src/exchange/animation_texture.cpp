@@ -152,14 +152,14 @@ AnimationTexture::AnimationTexture(const std::filesystem::path& target, size_t c
 
 void AnimationTexture::add(const AnimationFrame& frame) {
     row_.resize(columns_ * floatsEach);
-    float* at = row_.data();
-    for (size_t i = 0; i < columns_; ++i, at += floatsEach) {
+    float* texel = row_.data();
+    for (size_t i = 0; i < columns_; ++i, texel += floatsEach) {
         const glm::vec3 x = frame.offsets[i];
         const glm::vec4 t = frame.turns[i];
         low_ = glm::min(low_, x);
         high_ = glm::max(high_, x);
-        at[0] = x.x, at[1] = x.y, at[2] = x.z;
-        at[3] = t.x, at[4] = t.y, at[5] = t.z, at[6] = t.w;
+        texel[0] = x.x, texel[1] = x.y, texel[2] = x.z;
+        texel[3] = t.x, texel[4] = t.y, texel[5] = t.z, texel[6] = t.w;
     }
     ::fseeko(spool_.get(), off_t(frames_ * row_.size() * sizeof(float)), SEEK_SET);
     if (std::fwrite(row_.data(), sizeof(float), row_.size(), spool_.get()) != row_.size() ||
@@ -179,9 +179,9 @@ AnimationFrame AnimationTexture::frame(size_t i) const {
     read(i);
     AnimationFrame out;
     for (size_t c = 0; c < columns_; ++c) {
-        const float* at = row_.data() + c * floatsEach;
-        out.offsets.emplace_back(at[0], at[1], at[2]);
-        out.turns.emplace_back(at[3], at[4], at[5], at[6]);
+        const float* texel = row_.data() + c * floatsEach;
+        out.offsets.emplace_back(texel[0], texel[1], texel[2]);
+        out.turns.emplace_back(texel[3], texel[4], texel[5], texel[6]);
     }
     return out;
 }
@@ -221,12 +221,12 @@ RigidMotion rigidMotion(std::span<const glm::dvec3> rest, std::span<const glm::d
     glm::dmat3 s(0);  // s[b][a]: sum of rest_a place_b
     for (size_t i = 0; i < rest.size(); ++i)
         s += glm::outerProduct(rest[i] - out.restMiddle, places[i] - out.middle);
-    const auto at = [&](int a, int b) { return s[b][a]; };
+    const auto m = [&](int a, int b) { return s[b][a]; };
     Eigen::Matrix4d n;
-    n << at(0, 0) + at(1, 1) + at(2, 2), at(1, 2) - at(2, 1), at(2, 0) - at(0, 2), at(0, 1) - at(1, 0),  //
-        at(1, 2) - at(2, 1), at(0, 0) - at(1, 1) - at(2, 2), at(0, 1) + at(1, 0), at(2, 0) + at(0, 2),   //
-        at(2, 0) - at(0, 2), at(0, 1) + at(1, 0), at(1, 1) - at(0, 0) - at(2, 2), at(1, 2) + at(2, 1),   //
-        at(0, 1) - at(1, 0), at(2, 0) + at(0, 2), at(1, 2) + at(2, 1), at(2, 2) - at(0, 0) - at(1, 1);
+    n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
+        m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
+        m(2, 0) - m(0, 2), m(0, 1) + m(1, 0), m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),   //
+        m(0, 1) - m(1, 0), m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), m(2, 2) - m(0, 0) - m(1, 1);
     const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(n).eigenvectors().col(3);
     out.turn = glm::dquat(q(0), q(1), q(2), q(3));
     for (size_t i = 0; i < rest.size(); ++i) {

@@ -19,13 +19,13 @@ class ExrStream : public Imf::OStream {
     // Error: PartFile's.
     explicit ExrStream(const std::filesystem::path& target) : OStream(target.c_str()), part_(target) {}
     void write(const char data[], int count) override;  // Error: disk full
-    Position tellp() override { return at_; }
-    void seekp(Position at) override { at_ = at; }
+    Position tellp() override { return position_; }
+    void seekp(Position position) override { position_ = position; }
     void finish() { part_.replaceTarget(); }
 
   private:
     PartFile part_;
-    Position at_ = 0;
+    Position position_ = 0;
 };
 
 }  // namespace shoal::exchange

@@ -66,12 +66,12 @@ class Glb {
     }
 
     int positions(const std::vector<glm::vec3>& values) {
-        const int at = accessor(values, "VEC3", floats, vertexTarget);
+        const int index = accessor(values, "VEC3", floats, vertexTarget);
         glm::vec3 low(values[0]), high(values[0]);
         for (const glm::vec3& p : values)
             low = glm::min(low, p), high = glm::max(high, p);
         append(accessors_.back(), key("min", glm::dvec3(low)), key("max", glm::dvec3(high)));
-        return at;
+        return index;
     }
 
     int texture(const DrawnMesh& mesh, int image) {

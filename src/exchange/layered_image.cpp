@@ -17,8 +17,8 @@ Error diskFull(const std::filesystem::path& file) {
 }
 
 void ExrStream::write(const char data[], int count) {
-    if (::pwrite(part_.file(), data, size_t(count), off_t(at_)) != count) throw diskFull(fileName());
-    at_ += Position(count);
+    if (::pwrite(part_.file(), data, size_t(count), off_t(position_)) != count) throw diskFull(fileName());
+    position_ += Position(count);
 }
 
 void writeExr(const std::filesystem::path& file, int width, int height,

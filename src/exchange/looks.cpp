@@ -28,7 +28,7 @@ namespace {
 
 namespace shoal::exchange {
 
-// Of evenly chosen vertices, as shaders/render/color_scale.glsl takes them.
+// Takes the mean velocity of evenly chosen vertices, as shaders/render/color_scale.glsl does.
 static glm::vec3 colorBySpeed(const ColorScale& scale, std::span<const glm::dvec3> velocities) {
     constexpr size_t mostRead = 64;
     const size_t stride = (velocities.size() + mostRead - 1) / mostRead;

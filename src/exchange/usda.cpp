@@ -164,14 +164,14 @@ struct UsdStage::Parts {
                       "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n");
     }
 
-    void sampleOf(Moving& it, size_t attribute, int frame, const std::string& values) {
-        it.used.insert(attribute);
+    void sampleOf(Moving& prim, size_t attribute, int frame, const std::string& values) {
+        prim.used.insert(attribute);
         if (!frames.empty()) {
-            it.frame += concat("        ", attributes[attribute].declaration,
-                               ".timeSamples = {\n            ", frame, ": ", values, ",\n        }\n");
+            prim.frame += concat("        ", attributes[attribute].declaration,
+                                 ".timeSamples = {\n            ", frame, ": ", values, ",\n        }\n");
             return;
         }
-        std::unique_ptr<Spool>& spool = it.samples[attribute];
+        std::unique_ptr<Spool>& spool = prim.samples[attribute];
         if (!spool) spool = std::make_unique<Spool>(file);
         spool->add(concat("            ", frame, ": ", values, ",\n"));
     }
@@ -285,41 +285,41 @@ static std::string pointLooks(const DrawnMesh& mesh, bool change) {
 
 size_t UsdStage::addMoving(const DrawnMesh& mesh, const UsdMoving& how) {
     Parts& p = *parts_;
-    Parts::Moving& it = p.moving.emplace_back();
-    it.name = p.uniqueName(mesh.name);
-    it.kind = !how.instances.empty() ? "PointInstancer" : mesh.corners.empty() ? "Points" : "Mesh";
+    Parts::Moving& prim = p.moving.emplace_back();
+    prim.name = p.uniqueName(mesh.name);
+    prim.kind = !how.instances.empty() ? "PointInstancer" : mesh.corners.empty() ? "Points" : "Mesh";
     if (!how.instances.empty()) {
         const std::vector<uint32_t> zeros(how.instances.size(), 0);
         std::vector<glm::vec3> scales;
         for (const float scale : how.instances)
             scales.emplace_back(scale);
-        it.head = Parts::line("int[] protoIndices = " + list(zeros)) +
-                  Parts::line("float3[] scales = " + list(scales)) +
-                  Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
-                  (how.looksChange ? std::string()
-                                   : Parts::line("color3f[] primvars:displayColor = " + list(how.colors) +
-                                                 interpolated("vertex"))) +
-                  Parts::prim("Mesh", "molecule") + p.topology(mesh, false, false) +
-                  Parts::line("point3f[] points = " + list(mesh.positions)) +
-                  Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) +
-                  "    }\n";
+        prim.head = Parts::line("int[] protoIndices = " + list(zeros)) +
+                    Parts::line("float3[] scales = " + list(scales)) +
+                    Parts::line("rel prototypes = </scene/" + prim.name + "/molecule>") +
+                    (how.looksChange ? std::string()
+                                     : Parts::line("color3f[] primvars:displayColor = " + list(how.colors) +
+                                                   interpolated("vertex"))) +
+                    Parts::prim("Mesh", "molecule") + p.topology(mesh, false, false) +
+                    Parts::line("point3f[] points = " + list(mesh.positions)) +
+                    Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) +
+                    "    }\n";
     } else if (mesh.corners.empty()) {
-        it.head =
+        prim.head =
             pointLooks(mesh, how.looksChange) +
             Parts::line("rel material:binding = <" + p.materials.add(mesh, mesh.pieces[0].material) + ">");
     } else {
-        it.head = p.topology(mesh, how.changes, !how.looksChange);
+        prim.head = p.topology(mesh, how.changes, !how.looksChange);
     }
-    it.origin = how.origin;
-    it.head += Parts::moved(how.origin);
+    prim.origin = how.origin;
+    prim.head += Parts::moved(how.origin);
     return p.moving.size() - 1;
 }
 
 void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
     Parts& p = *parts_;
-    Parts::Moving& it = p.moving[moving];
+    Parts::Moving& prim = p.moving[moving];
     const auto put = [&](size_t attribute, const auto& values) {
-        if (!values.empty()) p.sampleOf(it, attribute, frame, list(values));
+        if (!values.empty()) p.sampleOf(prim, attribute, frame, list(values));
     };
     enum {
         points,
@@ -335,16 +335,16 @@ void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
         opacities,
         widths
     };
-    const bool instances = it.kind == std::string_view("PointInstancer");
+    const bool instances = prim.kind == std::string_view("PointInstancer");
     std::vector<glm::dvec3> places = sample.points;
     for (glm::dvec3& place : places)
-        place -= it.origin;
-    p.sampleOf(it, instances ? positions : points, frame, list(places));
+        place -= prim.origin;
+    p.sampleOf(prim, instances ? positions : points, frame, list(places));
     put(normals, sample.normals);
     put(velocities, sample.velocities);
     put(orientations, sample.turns);
     put(indices, sample.corners);
-    if (!sample.corners.empty()) p.sampleOf(it, counts, frame, Parts::counts(sample.corners.size()));
+    if (!sample.corners.empty()) p.sampleOf(prim, counts, frame, Parts::counts(sample.corners.size()));
     put(colors, sample.colors);
     put(uvs, sample.uvs);
     put(opacities, sample.opacities);
@@ -353,7 +353,7 @@ void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
     glm::dvec3 low = places[0], high = low;
     for (const glm::dvec3& x : places)
         low = glm::min(low, x), high = glm::max(high, x);
-    p.sampleOf(it, extent, frame, list(std::array{low, high}));
+    p.sampleOf(prim, extent, frame, list(std::array{low, high}));
 }
 
 void UsdStage::endFrame(int frame) {
@@ -362,9 +362,9 @@ void UsdStage::endFrame(int frame) {
     p.last = frame;
     if (p.frames.empty()) return;
     std::string out = "#usda 1.0\n(\n    defaultPrim = \"scene\"\n)\n\nover \"scene\"\n{\n";
-    for (Parts::Moving& it : p.moving) {
-        out += concat("    over \"", it.name, "\"\n    {\n", it.frame, "    }\n");
-        it.frame.clear();
+    for (Parts::Moving& prim : p.moving) {
+        out += concat("    over \"", prim.name, "\"\n    {\n", prim.frame, "    }\n");
+        prim.frame.clear();
     }
     const fs::path file = p.frames / p.frameName(frame);
     writeFile(file, out + "}\n");
@@ -376,9 +376,9 @@ void UsdStage::finish() {
     p.written.insert(p.written.end(), p.materials.images().begin(), p.materials.images().end());
     if (!p.frames.empty()) {
         std::string manifest = "#usda 1.0\n(\n    defaultPrim = \"scene\"\n)\n\nover \"scene\"\n{\n";
-        for (const Parts::Moving& it : p.moving) {
-            manifest += concat("    over \"", it.name, "\"\n    {\n");
-            for (const size_t attribute : it.used)
+        for (const Parts::Moving& prim : p.moving) {
+            manifest += concat("    over \"", prim.name, "\"\n    {\n");
+            for (const size_t attribute : prim.used)
                 manifest += Parts::line(attributes[attribute].declaration);
             manifest += "    }\n";
         }
@@ -388,17 +388,17 @@ void UsdStage::finish() {
     FileWriter out(p.file);
     const auto write = [&](const std::string& piece) { out.write(piece.data(), piece.size()); };
     write(p.head() + "def Xform \"scene\"\n{\n" + p.body);
-    for (Parts::Moving& it : p.moving) {
-        write(concat("    def ", it.kind, " \"", it.name,
+    for (Parts::Moving& prim : p.moving) {
+        write(concat("    def ", prim.kind, " \"", prim.name,
                      "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n",
-                     p.frames.empty() ? "" : p.clips(it.name), "    )\n    {\n", it.head));
+                     p.frames.empty() ? "" : p.clips(prim.name), "    )\n    {\n", prim.head));
         for (size_t i = 0; i < attributeCount; ++i) {
-            if (!it.used.contains(i)) continue;
+            if (!prim.used.contains(i)) continue;
             const std::string how = interpolated(attributes[i].interpolation);
             if (!how.empty()) write(concat("        ", attributes[i].declaration, how, "\n"));
-            if (!it.samples[i]) continue;
+            if (!prim.samples[i]) continue;
             write(concat("        ", attributes[i].declaration, ".timeSamples = {\n"));
-            it.samples[i]->copyTo(out);
+            prim.samples[i]->copyTo(out);
             write("        }\n");
         }
         write("    }\n");

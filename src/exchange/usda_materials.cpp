@@ -34,11 +34,11 @@ std::string UsdMaterials::add(const DrawnMesh& mesh, const SurfaceMaterial& look
         inputs += concat("                float inputs:", input, " = ", value, "\n");
     };
     if (looks.colorImage >= 0) {
-        const std::string at =
+        const std::string source =
             reader("color", looks.colorImage, "float3 outputs:rgb\n                float outputs:a", "sRGB");
-        inputs += concat("                color3f inputs:diffuseColor.connect = ", at, ".outputs:rgb>\n");
+        inputs += concat("                color3f inputs:diffuseColor.connect = ", source, ".outputs:rgb>\n");
         if (looks.alpha != SurfaceMaterial::Alpha::opaque)
-            inputs += concat("                float inputs:opacity.connect = ", at, ".outputs:a>\n");
+            inputs += concat("                float inputs:opacity.connect = ", source, ".outputs:a>\n");
     } else if (!mesh.colors.empty()) {
         shaders +=
             "            def Shader \"vertexColor\"\n            {\n"
@@ -68,10 +68,10 @@ std::string UsdMaterials::add(const DrawnMesh& mesh, const SurfaceMaterial& look
         inputs += concat("                normal3f inputs:normal.connect = ",
                          reader("normal", looks.normalImage, "float3 outputs:rgb", "raw"), ".outputs:rgb>\n");
     if (looks.roughnessImage >= 0) {
-        const std::string at = reader("roughness", looks.roughnessImage,
-                                      "float outputs:g\n                float outputs:b", "raw");
-        inputs += concat("                float inputs:roughness.connect = ", at, ".outputs:g>\n",
-                         "                float inputs:metallic.connect = ", at, ".outputs:b>\n");
+        const std::string source = reader("roughness", looks.roughnessImage,
+                                          "float outputs:g\n                float outputs:b", "raw");
+        inputs += concat("                float inputs:roughness.connect = ", source, ".outputs:g>\n",
+                         "                float inputs:metallic.connect = ", source, ".outputs:b>\n");
     } else {
         scalar("roughness", looks.roughness);
         scalar("metallic", looks.metallic);

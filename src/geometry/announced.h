@@ -1,5 +1,5 @@
-// What a text says that a model consists of, which a reader that drops lines does not. For read_assimp.cpp
-// alone.
+// Counts what a text says that a model consists of, since a reader that drops lines does not tell. Only
+// read_assimp.cpp uses it.
 #pragma once
 
 #include <cstddef>

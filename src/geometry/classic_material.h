@@ -1,5 +1,5 @@
-// What the materials of older formats (OBJ, FBX, COLLADA, …) say otherwise than SurfaceMaterial does. For the
-// readers of models alone.
+// Turns what the materials of older formats (OBJ, FBX, COLLADA, …) say otherwise into a SurfaceMaterial. Only
+// the readers of models use it.
 #pragma once
 
 #include <functional>

@@ -38,15 +38,15 @@ int closeHoles(Mesh& mesh, double mostArea) {
     while (!next.empty()) {
         std::vector<int> loop;
         int vertex = next.begin()->first;
-        for (auto at = next.find(vertex); at != next.end(); at = next.find(vertex)) {
+        for (auto found = next.find(vertex); found != next.end(); found = next.find(vertex)) {
             loop.push_back(vertex);
-            vertex = at->second;
-            next.erase(at);
+            vertex = found->second;
+            next.erase(found);
         }
         if (vertex != loop.front() || loop.size() < 3) continue;  // it does not come back
         glm::dvec3 middle(0);
-        for (const int one : loop)
-            middle += place(one) / double(loop.size());
+        for (const int corner : loop)
+            middle += place(corner) / double(loop.size());
         double area = 0;
         for (size_t i = 0; i < loop.size(); ++i)
             area += 0.5 * glm::length(glm::cross(place(loop[i]) - middle,

@@ -204,7 +204,7 @@ ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>(me
 
 ClosestPoints::~ClosestPoints() = default;
 
-ClosestPoint ClosestPoints::at(const glm::dvec3& x, double within, int guess) const {
+ClosestPoint ClosestPoints::find(const glm::dvec3& x, double within, int guess) const {
     Query query{&tree_->triangles, &tree_->normals, tree_->toUnits(x), {}, 0};
     query.best.distance = within / tree_->size;
     if (guess >= 0) query.consider(guess);

@@ -27,8 +27,8 @@ class ClosestPoints {
     // May be called from several threads. Nothing (triangle -1) is found further than `within`. Where several
     // triangles are as near, `front` is of the one that faces the point most, which is right at edges and at
     // all but saddle-like corners. `guess`: a triangle that may be near, which makes it faster.
-    ClosestPoint at(const glm::dvec3& x, double within = std::numeric_limits<double>::infinity(),
-                    int guess = -1) const;
+    ClosestPoint find(const glm::dvec3& x, double within = std::numeric_limits<double>::infinity(),
+                      int guess = -1) const;
 
     // Returns the thickness of a closed mesh, m: the distance from a point of the surface along the unit
     // `direction`, which leads inside, to where it leaves all shells again, through a triangle that faces

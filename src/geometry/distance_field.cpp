@@ -81,7 +81,7 @@ FieldError measureError(const DistanceField& field, const Mesh& mesh, const Clos
         const size_t from = size_t(part) * piece, to = std::min(from + piece, probes.size());
         for (size_t i = from; i < to; ++i) {
             const glm::dvec3 x = cells.place(probes[i].x, probes[i].y, probes[i].z);
-            const ClosestPoint found = closest.at(x);
+            const ClosestPoint found = closest.find(x);
             double exact = found.distance - field.shell / 2;
             if (!winding.empty()) {
                 const int w = winding[cells.index(probes[i].x, probes[i].y, probes[i].z)];
@@ -164,7 +164,8 @@ class Baker {
                 ClosestPoint last;
                 for (int x = 0; x < field_.grid.size.x; ++x) {
                     const glm::dvec3 place = field_.grid.place(x, y, z);
-                    last = closest_.at(place, (last.distance + field_.grid.cell) * (1 + 1e-9), last.triangle);
+                    last =
+                        closest_.find(place, (last.distance + field_.grid.cell) * (1 + 1e-9), last.triangle);
                     store(field_.grid.index(x, y, z), place, last);
                 }
             }
@@ -195,11 +196,11 @@ class Baker {
     // Whether one of the 26 samples around is outside.
     bool besideOutside(size_t index) const {
         const glm::ivec3 size = field_.grid.size;
-        const glm::ivec3 at(int(index % size_t(size.x)), int(index / size_t(size.x) % size_t(size.y)),
-                            int(index / size_t(size.x) / size_t(size.y)));
+        const glm::ivec3 cell(int(index % size_t(size.x)), int(index / size_t(size.x) % size_t(size.y)),
+                              int(index / size_t(size.x) / size_t(size.y)));
         for (int i = 0; i < 27; ++i) {
             const glm::ivec3 p =
-                glm::clamp(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1, glm::ivec3(0), size - 1);
+                glm::clamp(cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1, glm::ivec3(0), size - 1);
             if (winding_[field_.grid.index(p.x, p.y, p.z)] == 0) return true;
         }
         return false;

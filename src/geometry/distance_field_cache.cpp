@@ -162,9 +162,9 @@ void keep(const fs::path& path, const std::string& key, const DistanceField& fie
 
 }  // namespace
 
-static void move(DistanceField& field, const glm::dvec3& by) {
+static void move(DistanceField& field, const glm::dvec3& offset) {
     for (glm::dvec3* place : {&field.grid.low, &field.thinWhere, &field.error.where})
-        *place += by;
+        *place += offset;
 }
 
 // About the middle of its mesh.

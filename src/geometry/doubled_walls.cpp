@@ -144,7 +144,7 @@ class Pieces {
     }
 
     bool liesOn(const ClosestPoints& surface, const Piece& inner, double near) const {
-        return allOf(inner, 400, [&](int vertex) { return surface.at(place(vertex), near).triangle >= 0; });
+        return allOf(inner, 400, [&](int vertex) { return surface.find(place(vertex), near).triangle >= 0; });
     }
 
     Mesh meshOf(const Piece& piece) const {

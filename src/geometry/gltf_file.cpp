@@ -18,9 +18,9 @@ namespace {
 
 constexpr double mostBytes = 4e9;  // of anything; more than memory allows is refused by the child's limits
 
-uint32_t word(const std::string& bytes, size_t at) {
+uint32_t word(const std::string& bytes, size_t offset) {
     uint32_t out = 0;
-    std::memcpy(&out, bytes.data() + at, 4);
+    std::memcpy(&out, bytes.data() + offset, 4);
     return out;
 }
 
@@ -54,7 +54,7 @@ enum ComponentType { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uin
 size_t whole(JsonReader& from, const char* key, double most) {
     double out = 0;
     from.get(key, out, Range::between(0, most));
-    if (out != std::floor(out)) throw Error(from.at(key), "expected a whole number, found ", out);
+    if (out != std::floor(out)) throw Error(from.locate(key), "expected a whole number, found ", out);
     return size_t(out);
 }
 
@@ -82,33 +82,35 @@ struct GltfFile::Elements {
                                                     : 0;
         if (bytes == 0) throw Error(where, "expected a type of component of glTF, found ", type);
     }
-    double number(const uint8_t* at) const {
+    double number(const uint8_t* data) const {
         switch (type) {
         case int8:
-            return normalized ? std::max(numberAt<int8_t>(at) / 127, -1.0) : numberAt<int8_t>(at);
+            return normalized ? std::max(numberAt<int8_t>(data) / 127, -1.0) : numberAt<int8_t>(data);
         case uint8:
-            return numberAt<uint8_t>(at) / (normalized ? 255 : 1);
+            return numberAt<uint8_t>(data) / (normalized ? 255 : 1);
         case int16:
-            return normalized ? std::max(numberAt<int16_t>(at) / 32767, -1.0) : numberAt<int16_t>(at);
+            return normalized ? std::max(numberAt<int16_t>(data) / 32767, -1.0) : numberAt<int16_t>(data);
         case uint16:
-            return numberAt<uint16_t>(at) / (normalized ? 65535 : 1);
+            return numberAt<uint16_t>(data) / (normalized ? 65535 : 1);
         case uint32:
-            return numberAt<uint32_t>(at) / (normalized ? 4294967295.0 : 1);
+            return numberAt<uint32_t>(data) / (normalized ? 4294967295.0 : 1);
         default:
-            return double(numberAt<float>(at));
+            return double(numberAt<float>(data));
         }
     }
 };
 
-std::optional<JsonReader> gltfExtension(JsonReader& of, const char* name) {
-    std::optional<JsonReader> all = of.object("extensions");
+std::optional<JsonReader> gltfExtension(JsonReader& object, const char* name) {
+    std::optional<JsonReader> all = object.object("extensions");
     return all ? all->object(name) : std::nullopt;
 }
 
 std::string percentDecoded(const std::string& uri) {
     std::string out;
     for (size_t i = 0; i < uri.size(); ++i) {
-        const auto isHex = [&](size_t at) { return at < uri.size() && std::isxdigit(uint8_t(uri[at])); };
+        const auto isHex = [&](size_t index) {
+            return index < uri.size() && std::isxdigit(uint8_t(uri[index]));
+        };
         if (uri[i] == '%' && isHex(i + 1) && isHex(i + 2)) {
             out += char(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
             i += 2;
@@ -137,7 +139,7 @@ GltfFile::GltfFile(const ModelFile& model) : name_(model.name), opened_(model.op
     asset->need("version", version);
     asset->get("minVersion", least);
     if (!version.starts_with("2.") || least != "2.0")
-        throw Error(asset->at("version"), "is of version ", least == "2.0" ? version : least,
+        throw Error(asset->locate("version"), "is of version ", least == "2.0" ? version : least,
                     " of glTF, expected 2.0");
 }
 
@@ -149,14 +151,14 @@ void GltfFile::openBinary(const std::string& bytes) {
     const size_t end = word(bytes, 8);
     if (end > bytes.size())
         throw Error(location, "is cut off: its head tells of ", end, " bytes, it has ", bytes.size());
-    for (size_t at = 12, chunk = 0; at + 8 <= end; ++chunk) {
-        const size_t length = word(bytes, at);
-        const std::string kind = bytes.substr(at + 4, 4);
-        if (length > end - at - 8) throw Error(location, "has a chunk that ends after the file");
+    for (size_t offset = 12, chunk = 0; offset + 8 <= end; ++chunk) {
+        const size_t length = word(bytes, offset);
+        const std::string kind = bytes.substr(offset + 4, 4);
+        if (length > end - offset - 8) throw Error(location, "has a chunk that ends after the file");
         if ((chunk == 0) != (kind == "JSON")) throw Error(location, "does not begin with a chunk of JSON");
-        if (chunk == 0) json_ = parseJson(bytes.substr(at + 8, length), name_);
-        if (kind == std::string("BIN\0", 4) && !binary_) binary_ = bytes.substr(at + 8, length);
-        at += 8 + length;
+        if (chunk == 0) json_ = parseJson(bytes.substr(offset + 8, length), name_);
+        if (kind == std::string("BIN\0", 4) && !binary_) binary_ = bytes.substr(offset + 8, length);
+        offset += 8 + length;
     }
 }
 
@@ -164,7 +166,7 @@ size_t GltfFile::count(const char* list) const {
     const JsonValue* items = json_.find(list);
     if (!items) return 0;
     if (items->kind != JsonValue::Kind::array)
-        throw Error(root().at(list), "expected an array, found ", shoal::name(items->kind));
+        throw Error(root().locate(list), "expected an array, found ", shoal::name(items->kind));
     return items->items.size();
 }
 
@@ -175,7 +177,7 @@ JsonReader GltfFile::item(const char* list, int index) const {
 int GltfFile::index(JsonReader& from, const std::string& key, const char* list) const {
     int out = -1;
     const size_t all = count(list);
-    if (from.has(key) && all == 0) throw Error(from.at(key), "the file has no ", list);
+    if (from.has(key) && all == 0) throw Error(from.locate(key), "the file has no ", list);
     from.get(key, out, Range::between(0, double(all) - 1));
     return out;
 }
@@ -183,9 +185,9 @@ int GltfFile::index(JsonReader& from, const std::string& key, const char* list) 
 std::string GltfFile::fetch(const std::string& uri, const Location& where) const {
     constexpr const char* embedded = ";base64,";
     if (uri.starts_with("data:")) {
-        const size_t at = uri.substr(0, 1000).find(embedded);
-        if (at == std::string::npos) throw Error(where, "expected data in base64");
-        return fromBase64(uri, at + std::strlen(embedded), where);
+        const size_t start = uri.substr(0, 1000).find(embedded);
+        if (start == std::string::npos) throw Error(where, "expected data in base64");
+        return fromBase64(uri, start + std::strlen(embedded), where);
     }
     const std::filesystem::path file = std::filesystem::path(name_).parent_path() / percentDecoded(uri);
     try {
@@ -206,13 +208,13 @@ std::span<const uint8_t> GltfFile::bufferOf(int buffer) {
     const bool named = from.get("uri", uri), holds = !named && buffer == 0 && binary_;
     if (fresh) {
         if (named)
-            known->second = fetch(uri, from.at("uri"));
+            known->second = fetch(uri, from.locate("uri"));
         else if (!holds)
             throw Error(from.here(), "has no bytes: neither a \"uri\" nor a chunk of the file");
     }
     const std::string& all = holds ? *binary_ : known->second;
     if (all.size() < length)
-        throw Error(from.at("byteLength"), "has ", all.size(), " bytes, expected ", length);
+        throw Error(from.locate("byteLength"), "has ", all.size(), " bytes, expected ", length);
     return {reinterpret_cast<const uint8_t*>(all.data()), length};
 }
 
@@ -222,7 +224,8 @@ std::span<const uint8_t> GltfFile::rangeOf(JsonReader& from) {
     from.require("byteLength");
     const size_t offset = whole(from, "byteOffset", mostBytes), length = whole(from, "byteLength", mostBytes);
     if (offset + length > all.size())
-        throw Error(from.at("byteLength"), "ends at byte ", offset + length, " of a buffer of ", all.size());
+        throw Error(from.locate("byteLength"), "ends at byte ", offset + length, " of a buffer of ",
+                    all.size());
     return all.subspan(offset, length);
 }
 
@@ -243,7 +246,7 @@ std::vector<uint8_t> GltfFile::decompressed(JsonReader& from) {
     const bool filters = filter == 0 || (mode == 0 && (filter == 1   ? stride == 4 || stride == 8
                                                        : filter == 2 ? stride == 8
                                                                      : stride % 4 == 0));
-    if (!fits || !filters) throw Error(from.at("byteStride"), "does not fit its mode and filter");
+    if (!fits || !filters) throw Error(from.locate("byteStride"), "does not fit its mode and filter");
     std::vector<uint8_t> out(count * stride);
     if (count == 0) return out;
     const int failed =
@@ -300,7 +303,7 @@ void GltfFile::readSparse(JsonReader& from, const Elements& kind, GltfArray& out
     places.require("bufferView");
     values.require("bufferView");
     const std::vector<double> indices = read(index(places, "bufferView", "bufferViews"), places,
-                                             Elements(type, places.at("componentType")), count);
+                                             Elements(type, places.locate("componentType")), count);
     const std::vector<double> numbers = read(index(values, "bufferView", "bufferViews"), values, kind, count);
     for (size_t i = 0; i < count; ++i) {
         if (!(indices[i] >= 0 && indices[i] < double(out.count)))
@@ -321,9 +324,9 @@ const GltfArray& GltfFile::array(int accessor, std::initializer_list<size_t> com
         from.need("componentType", type);
         from.require("type");
         from.choose("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4", "MAT2", "MAT3"}, shape);
-        Elements kind(type, from.at("componentType"));
+        Elements kind(type, from.locate("componentType"));
         constexpr size_t sizes[] = {1, 2, 3, 4, 16, 0, 0};  // no array of what we read has the last two
-        if (sizes[shape] == 0) throw Error(from.at("type"), "is not what is read here");
+        if (sizes[shape] == 0) throw Error(from.locate("type"), "is not what is read here");
         from.get("normalized", kind.normalized);
         out.components = kind.components = sizes[shape];
         const int view = index(from, "bufferView", "bufferViews");
@@ -334,7 +337,7 @@ const GltfArray& GltfFile::array(int accessor, std::initializer_list<size_t> com
         if (std::optional<JsonReader> sparse = from.object("sparse")) readSparse(*sparse, kind, out);
     }
     if (std::find(components.begin(), components.end(), out.components) == components.end())
-        throw Error(from.at("type"), "is not of the kind that is expected of it");
+        throw Error(from.locate("type"), "is not of the kind that is expected of it");
     return out;
 }
 

@@ -16,17 +16,17 @@
 
 namespace shoal {
 
-// What an accessor means: elements of 1 to 4 or 16 numbers each, one after another. Normalised integers are
-// fractions.
+// An accessor gives elements of 1 to 4 or 16 numbers each, which lie here one after another. Normalised
+// integers are fractions.
 struct GltfArray {
     size_t count = 0, components = 0;
     std::vector<double> numbers;
 
-    // The element, or as much of it as it has; the rest is `otherwise`.
-    glm::dvec4 at(size_t element, glm::dvec4 otherwise = {0, 0, 0, 1}) const {
+    // The element, or as much of it as it has; the rest is `fallback`.
+    glm::dvec4 vector(size_t element, glm::dvec4 fallback = {0, 0, 0, 1}) const {
         for (size_t c = 0; c < std::min(components, size_t{4}); ++c)
-            otherwise[int(c)] = numbers[element * components + c];
-        return otherwise;
+            fallback[int(c)] = numbers[element * components + c];
+        return fallback;
     }
     glm::dmat4 matrix(size_t element) const;  // of 16 components, or of the first 16 of `numbers`
 };
@@ -78,7 +78,7 @@ class GltfFile {
 };
 
 // An extension of an object; nothing: it has none of this name.
-std::optional<JsonReader> gltfExtension(JsonReader& of, const char* name);
+std::optional<JsonReader> gltfExtension(JsonReader& object, const char* name);
 // "a%20b" is "a b".
 std::string percentDecoded(const std::string& uri);
 

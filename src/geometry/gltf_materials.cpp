@@ -125,8 +125,8 @@ class GltfMaterialReader {
     }
 
     // The number of an image; -1: there is none, or it cannot be read.
-    int imageOf(JsonReader& of, const char* key, const char* what) {
-        std::optional<JsonReader> texture = of.object(key);
+    int imageOf(JsonReader& object, const char* key, const char* what) {
+        std::optional<JsonReader> texture = object.object(key);
         if (!texture) return -1;
         const GltfCoordinates own = coordinatesOf(*texture);
         if (!coordinates_) coordinates_ = own;
@@ -159,7 +159,7 @@ class GltfMaterialReader {
         }
         if (!uri.starts_with("data:")) return images_.fromFile(percentDecoded(uri), told);
         return images_.kept(
-            key, [&] { return images_.decoded(file_.fetch(uri, image.at("uri")), key); }, told);
+            key, [&] { return images_.decoded(file_.fetch(uri, image.locate("uri")), key); }, told);
     }
 
     GltfFile& file_;

@@ -21,7 +21,8 @@ glm::dmat4 placed(const glm::dvec3& translation, glm::dvec4 turn, const glm::dve
 glm::dmat4 localOf(JsonReader& from) {
     std::vector<double> matrix;
     if (from.get("matrix", matrix)) {
-        if (matrix.size() != 16) throw Error(from.at("matrix"), "expected 16 numbers, found ", matrix.size());
+        if (matrix.size() != 16)
+            throw Error(from.locate("matrix"), "expected 16 numbers, found ", matrix.size());
         return glm::make_mat4(matrix.data());
     }
     glm::dvec3 translation(0), scale(1);
@@ -29,7 +30,7 @@ glm::dmat4 localOf(JsonReader& from) {
     from.get("translation", translation);
     from.get("scale", scale);
     from.get("rotation", turn);
-    if (!(glm::length(turn) > 0)) throw Error(from.at("rotation"), "expected a quaternion of length 1");
+    if (!(glm::length(turn) > 0)) throw Error(from.locate("rotation"), "expected a quaternion of length 1");
     return placed(translation, turn, scale);
 }
 
@@ -45,20 +46,21 @@ void placeNodes(GltfFile& file, std::vector<GltfNode>& nodes) {
     std::vector<int> chain;  // of what has no place yet, upwards
     for (size_t i = 0; i < nodes.size(); ++i) {
         chain.clear();
-        for (int at = int(i); at >= 0 && !done[size_t(at)]; at = nodes[size_t(at)].parent) {
+        for (int ancestor = int(i); ancestor >= 0 && !done[size_t(ancestor)];
+             ancestor = nodes[size_t(ancestor)].parent) {
             if (chain.size() > nodes.size())
                 throw Error(file.item("nodes", int(i)).here(), "the node lies within itself");
-            chain.push_back(at);
+            chain.push_back(ancestor);
         }
-        for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
-            GltfNode& node = nodes[size_t(*at)];
+        for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+            GltfNode& node = nodes[size_t(*link)];
             node.global = node.local;
             if (node.parent >= 0) {
                 const GltfNode& parent = nodes[size_t(node.parent)];
                 node.global = parent.global * node.local;
                 node.hidden = node.hidden || parent.hidden;
             }
-            done[size_t(*at)] = 1;
+            done[size_t(*link)] = 1;
         }
     }
 }
@@ -78,7 +80,7 @@ std::vector<GltfNode> readGltfNodes(GltfFile& file) {
         from.get("children", node.children, Range::between(0, double(nodes.size()) - 1));
         for (const int child : node.children) {
             if (nodes[size_t(child)].parent >= 0)
-                throw Error(from.at("children"), "node ", child, " is a child of two nodes, or twice");
+                throw Error(from.locate("children"), "node ", child, " is a child of two nodes, or twice");
             nodes[size_t(child)].parent = int(i);
         }
     }
@@ -116,15 +118,17 @@ std::vector<glm::dmat4> gltfPlaces(GltfFile& file, JsonReader& from, const GltfN
         if (accessor < 0) continue;
         arrays[i] = &file.array(accessor, {i == 1 ? size_t{4} : size_t{3}});
         if (count > 0 && arrays[i]->count != count)
-            throw Error(attributes.at(keys[i]), "has ", arrays[i]->count, " elements, the others ", count);
+            throw Error(attributes.locate(keys[i]), "has ", arrays[i]->count, " elements, the others ",
+                        count);
         count = arrays[i]->count;
     }
     std::vector<glm::dmat4> out;
     for (size_t i = 0; i < count; ++i) {
-        const glm::dvec4 turn = arrays[1] ? arrays[1]->at(i) : glm::dvec4(0, 0, 0, 1);
-        if (!(glm::length(turn) > 0)) throw Error(attributes.at(keys[1]), "expected quaternions of length 1");
-        out.push_back(node.global * placed(arrays[0] ? glm::dvec3(arrays[0]->at(i)) : glm::dvec3(0), turn,
-                                           arrays[2] ? glm::dvec3(arrays[2]->at(i)) : glm::dvec3(1)));
+        const glm::dvec4 turn = arrays[1] ? arrays[1]->vector(i) : glm::dvec4(0, 0, 0, 1);
+        if (!(glm::length(turn) > 0))
+            throw Error(attributes.locate(keys[1]), "expected quaternions of length 1");
+        out.push_back(node.global * placed(arrays[0] ? glm::dvec3(arrays[0]->vector(i)) : glm::dvec3(0), turn,
+                                           arrays[2] ? glm::dvec3(arrays[2]->vector(i)) : glm::dvec3(1)));
     }
     return out;
 }

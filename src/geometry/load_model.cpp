@@ -34,15 +34,15 @@ Mesh readModel(const ModelFile& model) {
 struct Names {
     std::vector<char> text;
     std::vector<int> numbers;
-    size_t at = 0;  // in the text, of the next name
+    size_t offset = 0;  // in the text, of the next name
 
     void add(const std::string& name) {
         text.insert(text.end(), name.c_str(), name.c_str() + name.size() + 1);
     }
     std::string next() {
-        const auto end = std::find(text.begin() + std::ptrdiff_t(at), text.end(), '\0');
-        std::string out(text.begin() + std::ptrdiff_t(at), end);
-        at = std::min(at + out.size() + 1, text.size());
+        const auto end = std::find(text.begin() + std::ptrdiff_t(offset), text.end(), '\0');
+        std::string out(text.begin() + std::ptrdiff_t(offset), end);
+        offset = std::min(offset + out.size() + 1, text.size());
         return out;
     }
 };
@@ -146,8 +146,8 @@ Mesh readConfined(const std::string& file) {
     }
     for (std::vector<std::string>* texts : {&mesh.notes, &mesh.losses, &mesh.boneNames}) {
         Names names{child.get<char>(), child.get<int>()};
-        for (int i = 0; !names.numbers.empty() && i < names.numbers.front() && names.at < names.text.size();
-             ++i)
+        for (int i = 0;
+             !names.numbers.empty() && i < names.numbers.front() && names.offset < names.text.size(); ++i)
             texts->push_back(names.next());
     }
     mesh.materials = child.get<SurfaceMaterial>();

@@ -63,9 +63,9 @@ class WeldGrid {
 // The triangle's normal times its angle at a corner: sums do not depend on how polygons were cut
 // [Thuermer 1998]. On a three-sided twig a sum weighted by areas would lie along a side.
 glm::dvec3 angleNormal(const Mesh& mesh, const glm::ivec3& t, int corner) {
-    const glm::dvec3& at = mesh.positions[size_t(t[corner])];
-    const glm::dvec3 next = mesh.positions[size_t(t[(corner + 1) % 3])] - at;
-    const glm::dvec3 last = mesh.positions[size_t(t[(corner + 2) % 3])] - at;
+    const glm::dvec3& point = mesh.positions[size_t(t[corner])];
+    const glm::dvec3 next = mesh.positions[size_t(t[(corner + 1) % 3])] - point;
+    const glm::dvec3 last = mesh.positions[size_t(t[(corner + 2) % 3])] - point;
     const glm::dvec3 across = glm::cross(next, last);
     const double sine = glm::length(across);
     if (!(sine > 0)) return glm::dvec3(0);

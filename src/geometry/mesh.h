@@ -66,8 +66,8 @@ struct Mesh {
     std::vector<SurfaceMaterial> materials;
     std::vector<Image> images;       // RGBA, at most largestModelImage texels a side
     std::vector<std::string> notes;  // what is drawn otherwise than the file has it, a sentence each
-    // What is read otherwise than the file has it in shape, place or mass, a sentence each. loadMesh refuses
-    // these, or moves them to the notes.
+    // These tell, a sentence each, what is read otherwise than the file has it in shape, place or mass.
+    // loadMesh refuses these, or moves them to the notes.
     std::vector<std::string> losses;
 
     glm::dvec3 low{0}, high{0};  // bounding box

@@ -62,7 +62,7 @@ double shadingError(const std::vector<glm::dvec3>& positions, const std::vector<
     constexpr size_t samples = 1000;
     double sum = 0, count = 0;
     for (size_t i = 0; i < positions.size(); i += positions.size() / samples + 1) {
-        const ClosestPoint found = nearest.at(positions[i]);
+        const ClosestPoint found = nearest.find(positions[i]);
         if (found.triangle < 0) continue;
         const glm::ivec3 t = level.triangles[size_t(found.triangle)];
         const auto place = [&](int k) { return positions[size_t(t[k])]; };

@@ -122,13 +122,16 @@ fs::path ModelImages::find(std::string path) const {
     std::replace(path.begin(), path.end(), '\\', '/');
     const fs::path written(path), name = written.filename();
     std::error_code code;
-    const auto readable = [&](const fs::path& at) { return mayOpen(at) && fs::is_regular_file(at, code); };
+    const auto readable = [&](const fs::path& file) {
+        return mayOpen(file) && fs::is_regular_file(file, code);
+    };
     if (readable(folder_ / written)) return folder_ / written;
     for (const fs::path& folder : {folder_, folder_ / "textures", folder_.parent_path() / "textures"}) {
         if (readable(folder / name)) return folder / name;
         const fs::path beside = folder.empty() ? "." : folder;
-        for (fs::directory_iterator at(beside, code), end; !code && at != end; at.increment(code))
-            if (lowered(at->path().filename()) == lowered(name) && readable(at->path())) return at->path();
+        for (fs::directory_iterator entry(beside, code), end; !code && entry != end; entry.increment(code))
+            if (lowered(entry->path().filename()) == lowered(name) && readable(entry->path()))
+                return entry->path();
     }
     throw Error("there is no ", name.empty() ? fs::path("file") : name, " beside the model");
 }

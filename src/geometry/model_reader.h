@@ -54,10 +54,10 @@ inline glm::dvec2 finiteUv(const glm::dvec2& uv) {
     return std::isfinite(uv.x + uv.y) ? uv : glm::dvec2(0);
 }
 
-// Returns a vector with length 1; `otherwise` for one that has no length, or none that is finite.
-inline glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise = glm::dvec3(0)) {
+// Returns a vector with length 1; `fallback` for one that has no length, or none that is finite.
+inline glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback = glm::dvec3(0)) {
     const double length = glm::length(v);
-    return std::isfinite(length) && length > 0 ? v / length : otherwise;
+    return std::isfinite(length) && length > 0 ? v / length : fallback;
 }
 
 constexpr std::string_view blanks = " \t\n\r\v\f";

@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Placement = ObjMaterials::Placement;
 
-// What the library does not tell: a key that is left out from one that is 0, and in one of its versions a
-// name with blanks.
+// The library tells neither a key that is left out from one that is 0 nor, in one of its versions, a name
+// with blanks: so names and keys are listed here.
 struct Listed {
     std::string name;
     std::set<std::string> keys;

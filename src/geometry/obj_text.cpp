@@ -126,16 +126,16 @@ void ObjText::checkNumbers(std::string_view keyword, std::string_view rest) {
 void ObjText::checkFace(std::string_view rest) const {
     while (!rest.empty()) {
         const std::string_view corner = firstWord(rest);
-        const char* at = corner.data();
-        const char* end = at + corner.size();
-        for (int slot = 0; at <= end && slot < 4; ++slot) {
+        const char* next = corner.data();
+        const char* end = next + corner.size();
+        for (int slot = 0; next <= end && slot < 4; ++slot) {
             int index = 0;
-            const auto [stop, code] = std::from_chars(at, end, index);
-            const bool absent = slot > 0 && stop == at;  // as in "1//3"
+            const auto [stop, code] = std::from_chars(next, end, index);
+            const bool absent = slot > 0 && stop == next;  // as in "1//3"
             if (slot == 3 || (!absent && (code != std::errc() || index == 0)) || (stop < end && *stop != '/'))
                 throw fail(concat("a face has the corner \"", corner,
                                   "\", expected numbers from 1 on, or below 0, as in 1/2/3"));
-            at = stop + 1;
+            next = stop + 1;
         }
     }
 }

@@ -183,8 +183,8 @@ class Walls {
             if (gone_[i]) continue;
             const glm::ivec3 t = welded(i);
             for (int k = 0; k < 3; ++k)
-                if (const auto at = wallsAt_.find(edge(t[k], t[(k + 1) % 3])); at != wallsAt_.end())
-                    heldAt_.insert(at->first);
+                if (const auto found = wallsAt_.find(edge(t[k], t[(k + 1) % 3])); found != wallsAt_.end())
+                    heldAt_.insert(found->first);
         }
     }
 

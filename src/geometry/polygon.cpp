@@ -39,15 +39,15 @@ class Ears {
 
     std::vector<glm::ivec3> cut() {
         std::vector<glm::ivec3> out;
-        size_t at = 1;  // the ear that is tried, in rest_
+        size_t current = 1;  // the ear that is tried, in rest_
         while (rest_.size() >= 3) {
-            size_t ear = at, tried = 0;
+            size_t ear = current, tried = 0;
             while (tried < rest_.size() && !isEar(ear % rest_.size()))
                 ++ear, ++tried;
-            ear = tried < rest_.size() ? ear % rest_.size() : at % rest_.size();  // it crosses itself
+            ear = tried < rest_.size() ? ear % rest_.size() : current % rest_.size();  // it crosses itself
             out.push_back(triangle(ear));
             rest_.erase(rest_.begin() + std::ptrdiff_t(ear));
-            at = ear == 0 ? 1 : ear;
+            current = ear == 0 ? 1 : ear;
         }
         return out;
     }
@@ -61,17 +61,17 @@ class Ears {
         return t;
     }
 
-    double turn(size_t at) const {
-        const glm::ivec3 t = corner(at);
+    double turn(size_t index) const {
+        const glm::ivec3 t = corner(index);
         return cross(place(t.y) - place(t.x), place(t.z) - place(t.y));
     }
 
     // Whether a corner is convex, and none of the others that are not lies in its triangle.
-    bool isEar(size_t at) const {
+    bool isEar(size_t index) const {
         if (rest_.size() == 3) return true;
         if (convex_) return true;
-        if (!(turn(at) > 0)) return false;
-        const glm::ivec3 t = corner(at);
+        if (!(turn(index) > 0)) return false;
+        const glm::ivec3 t = corner(index);
         for (size_t other = 0; other < rest_.size(); ++other) {
             const int i = rest_[other];
             if (i == t.x || i == t.y || i == t.z || turn(other) > 0) continue;
@@ -85,9 +85,9 @@ class Ears {
         return true;
     }
 
-    glm::ivec3 corner(size_t at) const {
+    glm::ivec3 corner(size_t index) const {
         const size_t count = rest_.size();
-        return {rest_[(at + count - 1) % count], rest_[at], rest_[(at + 1) % count]};
+        return {rest_[(index + count - 1) % count], rest_[index], rest_[(index + 1) % count]};
     }
     const glm::dvec2& place(int corner) const { return flat_[size_t(corner)]; }
 

@@ -27,17 +27,18 @@ class Copies {
     bool any() const { return uvs_ || colors_; }
 
     int placeOf(int vertex, const glm::dvec2& uv, const glm::dvec3& color) {
-        int at = vertex;
+        int index = vertex;
         if (used_[size_t(vertex)]) {
-            for (; at >= 0; at = copies_[size_t(at)].next)
-                if ((!uvs_ || mesh_.uvs[size_t(at)] == uv) && (!colors_ || mesh_.colors[size_t(at)] == color))
-                    return at;
-            at = copyOf(vertex);
+            for (; index >= 0; index = copies_[size_t(index)].next)
+                if ((!uvs_ || mesh_.uvs[size_t(index)] == uv) &&
+                    (!colors_ || mesh_.colors[size_t(index)] == color))
+                    return index;
+            index = copyOf(vertex);
         }
         used_[size_t(vertex)] = 1;
-        if (uvs_) mesh_.uvs[size_t(at)] = uv;
-        if (colors_) mesh_.colors[size_t(at)] = color;
-        return at;
+        if (uvs_) mesh_.uvs[size_t(index)] = uv;
+        if (colors_) mesh_.colors[size_t(index)] = color;
+        return index;
     }
 
     // Where the file has no normals, a vertex has one for all of its copies: a seam of texture coordinates is
@@ -69,16 +70,16 @@ class Copies {
 
     int copyOf(int vertex) {
         const size_t from = size_t(vertex);
-        const int at = int(mesh_.positions.size());
-        if (size_t(at) >= mostElements)
+        const int copy = int(mesh_.positions.size());
+        if (size_t(copy) >= mostElements)
             throw Error(Location{file_}, "has more than 2^28 vertices, the most that is read");
         copies_.push_back({copies_[from].next, vertex});
-        copies_[from].next = at;
+        copies_[from].next = copy;
         mesh_.positions.push_back(glm::dvec3(mesh_.positions[from]));
         mesh_.normals.push_back(glm::dvec3(mesh_.normals[from]));
         if (!mesh_.colors.empty()) mesh_.colors.push_back(glm::dvec3(mesh_.colors[from]));
         if (!mesh_.uvs.empty()) mesh_.uvs.push_back(glm::dvec2(mesh_.uvs[from]));
-        return at;
+        return copy;
     }
 
     Mesh& mesh_;

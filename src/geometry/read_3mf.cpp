@@ -90,7 +90,7 @@ class Reader3mf {
     }
 
     void tellWarnings(const Held& reader) {
-        // Of identifiers for printers, of metadata, and of a colour for triangles without one.
+        // These tell of identifiers for printers, of metadata, and of a colour for triangles without one.
         constexpr DWORD ofNothingDrawn[] = {0x80b0, 0x80b2, 0x80bb};
         DWORD count = 0;
         need(NMR::lib3mf_reader_getwarningcount(reader, &count));
@@ -258,7 +258,7 @@ class Reader3mf {
         return usualLook(usual, polygons);
     }
 
-    // What an object says of all triangles that say nothing.
+    // Returns the look that an object gives all triangles that name none.
     int usualLook(const Held& usual, Polygons& polygons) {
         auto type = NMR::MODELPROPERTYTYPE_NONE;
         need(NMR::lib3mf_defaultpropertyhandler_getpropertytype(usual, &type));

@@ -22,10 +22,10 @@ struct Attribute {
     const GltfArray* base = nullptr;
     std::vector<std::pair<double, const GltfArray*>> targets;
 
-    glm::dvec4 at(size_t vertex) const {
-        glm::dvec4 out = base->at(vertex);
+    glm::dvec4 value(size_t vertex) const {
+        glm::dvec4 out = base->vector(vertex);
         for (const auto& [weight, moves] : targets)
-            out += weight * moves->at(vertex, glm::dvec4(0));
+            out += weight * moves->vector(vertex, glm::dvec4(0));
         return out;
     }
 };
@@ -87,7 +87,7 @@ class GltfReader {
         };
         for (const std::string& name : required) {
             if (name == "KHR_draco_mesh_compression")
-                throw Error(root.at("extensionsRequired"), "its meshes are compressed by Draco (", name,
+                throw Error(root.locate("extensionsRequired"), "its meshes are compressed by Draco (", name,
                             "), which is not read: save it without, or with EXT_meshopt_compression");
             if (!isRead(name))
                 mesh_.losses.push_back(concat("it requires the extension ", name, ", which is not read"));
@@ -122,7 +122,7 @@ class GltfReader {
             const int accessor = file_.index(from, "inverseBindMatrices", "accessors");
             const GltfArray* inverse = accessor >= 0 ? &file_.array(accessor, {16}) : nullptr;
             if (inverse && inverse->count < joints.size())
-                throw Error(from.at("inverseBindMatrices"), "has ", inverse->count, " matrices for ",
+                throw Error(from.locate("inverseBindMatrices"), "has ", inverse->count, " matrices for ",
                             joints.size(), " joints");
             for (size_t j = 0; j < joints.size(); ++j) {
                 const GltfNode& node = nodes_[size_t(joints[j])];
@@ -140,19 +140,19 @@ class GltfReader {
     }
 
     // The weighted mean of the joints' transforms, and the heaviest bone.
-    glm::dmat4 poseOf(const Corners& of, size_t vertex, int& bone) const {
+    glm::dmat4 poseOf(const Corners& corners, size_t vertex, int& bone) const {
         glm::dmat4 out(0);
         double sum = 0, heaviest = 0;
-        for (const Influences& some : of.influences)
+        for (const Influences& some : corners.influences)
             for (int i = 0; i < 4; ++i) {
-                const double weight = some.weights->at(vertex)[i], joint = some.joints->at(vertex)[i];
+                const double weight = some.weights->vector(vertex)[i], joint = some.joints->vector(vertex)[i];
                 if (!(weight > 0)) continue;
-                if (!(joint >= 0 && joint < double(of.skin->joints.size())))
-                    throw Error(Location{model_.name}, "vertex ", vertex, " of mesh \"", of.mesh,
-                                "\" is moved by joint ", joint, " of ", of.skin->joints.size());
-                out += weight * of.skin->joints[size_t(joint)];
+                if (!(joint >= 0 && joint < double(corners.skin->joints.size())))
+                    throw Error(Location{model_.name}, "vertex ", vertex, " of mesh \"", corners.mesh,
+                                "\" is moved by joint ", joint, " of ", corners.skin->joints.size());
+                out += weight * corners.skin->joints[size_t(joint)];
                 sum += weight;
-                if (weight > heaviest) bone = of.skin->bones[size_t(joint)];
+                if (weight > heaviest) bone = corners.skin->bones[size_t(joint)];
                 heaviest = std::max(heaviest, weight);
             }
         return sum > 0 ? out / sum : glm::dmat4(1);
@@ -162,14 +162,15 @@ class GltfReader {
 
     void appendMesh(int number) {
         const GltfNode& node = nodes_[size_t(number)];
-        JsonReader of = file_.item("nodes", number), mesh = file_.item("meshes", node.mesh);
+        JsonReader source = file_.item("nodes", number), mesh = file_.item("meshes", node.mesh);
         std::string name;
         mesh.get("name", name);
         std::vector<double> weights;
-        if (!of.get("weights", weights)) mesh.get("weights", weights);
+        if (!source.get("weights", weights)) mesh.get("weights", weights);
         const Skin* skin = node.skin >= 0 ? &skins_[size_t(node.skin)] : nullptr;
         // What a skin moves stands where its joints are, wherever its node is (appendVertex).
-        const std::vector<glm::dmat4> places = skin ? std::vector{node.global} : gltfPlaces(file_, of, node);
+        const std::vector<glm::dmat4> places =
+            skin ? std::vector{node.global} : gltfPlaces(file_, source, node);
         Mesh::Object object{node.name.empty() ? name : node.name, int(mesh_.triangles.size()), 0};
         for (JsonReader& primitive : mesh.objects("primitives")) {
             Corners corners = cornersOf(primitive, weights, skin);
@@ -208,11 +209,11 @@ class GltfReader {
                                 out.position.base->count);
                 return &array;
             };
-            found.base = arrayOf(accessor, attributes.at(key));
+            found.base = arrayOf(accessor, attributes.locate(key));
             for (size_t t = 0; t < std::min(targets.size(), weights.size()); ++t)
                 if (const int moves = file_.index(targets[t], key, "accessors");
                     moves >= 0 && weights[t] != 0)
-                    found.targets.emplace_back(weights[t], arrayOf(moves, targets[t].at(key)));
+                    found.targets.emplace_back(weights[t], arrayOf(moves, targets[t].locate(key)));
             return found;
         };
         out.position = attribute("POSITION", {3});
@@ -255,8 +256,8 @@ class GltfReader {
         const auto vertex = [&](size_t i) {
             const double index = indices ? indices->numbers[i] : double(i);
             if (!(index >= 0 && index < double(vertices)))
-                throw Error(primitive.at("indices"), "has a triangle with vertex ", index, " of a mesh of ",
-                            vertices);
+                throw Error(primitive.locate("indices"), "has a triangle with vertex ", index,
+                            " of a mesh of ", vertices);
             return int(index);
         };
         std::vector<glm::ivec3> out;
@@ -297,14 +298,14 @@ class GltfReader {
             throw Error(Location{model_.name}, "has more than 2^28 vertices, the most that is read");
         int bone = -1;
         const glm::dmat4 transform = corners.skin ? poseOf(corners, vertex, bone) : place;
-        const glm::dvec3 at(transform * glm::dvec4(glm::dvec3(corners.position.at(vertex)), 1));
+        const glm::dvec3 position(transform * glm::dvec4(glm::dvec3(corners.position.value(vertex)), 1));
         const auto refuse = [&](const std::string& why) {
             throw Error(Location{model_.name},
                         concat("vertex ", vertex, " of mesh \"", corners.mesh, "\" ", why));
         };
-        if (!isFinite(at)) refuse("is not finite, expected three finite numbers");
-        if (!isWithinReach(at)) refuse(concat("lies beyond ", farthest, ", the farthest that is read"));
-        mesh_.positions.push_back(at);
+        if (!isFinite(position)) refuse("is not finite, expected three finite numbers");
+        if (!isWithinReach(position)) refuse(concat("lies beyond ", farthest, ", the farthest that is read"));
+        mesh_.positions.push_back(position);
         // The inverse transpose up to a factor that normalising removes; defined for flat transforms too.
         const glm::dmat3 m(transform);
         const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
@@ -312,16 +313,16 @@ class GltfReader {
         mirrored_.push_back(mirrored);
         glm::dvec3 normal(0);
         if (corners.normal.base)
-            normal = cofactor * glm::dvec3(corners.normal.at(vertex)) * (mirrored ? -1.0 : 1.0);
+            normal = cofactor * glm::dvec3(corners.normal.value(vertex)) * (mirrored ? -1.0 : 1.0);
         mesh_.normals.push_back(unit(normal));
         anyColors_ = anyColors_ || corners.color.base;
-        const glm::dvec4 color = corners.color.base ? corners.color.at(vertex) : glm::dvec4(1);
+        const glm::dvec4 color = corners.color.base ? corners.color.value(vertex) : glm::dvec4(1);
         mesh_.colors.push_back(isFinite(color) ? glm::dvec3(color) : glm::dvec3(1));
         seesThrough_ =
             seesThrough_ || (corners.color.base && corners.color.base->components == 4 && color.a < 1);
         anyUvs_ = anyUvs_ || corners.uv.base;
         glm::dvec3 uv(0);
-        if (corners.uv.base) uv = corners.uvTransform * glm::dvec3(glm::dvec2(corners.uv.at(vertex)), 1);
+        if (corners.uv.base) uv = corners.uvTransform * glm::dvec3(glm::dvec2(corners.uv.value(vertex)), 1);
         mesh_.uvs.push_back(isFinite(uv) ? glm::dvec2(uv) : glm::dvec2(0));
         mesh_.bones.push_back(bone);
         return int(mesh_.positions.size()) - 1;

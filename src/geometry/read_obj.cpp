@@ -113,10 +113,10 @@ class ObjReader {
     // Counts from 1 on, from the end where it is negative; 0: there is none.
     int resolved(int index, size_t count, const char* what) const {
         if (index == 0) return -1;
-        const int64_t at = index > 0 ? int64_t(index) - 1 : int64_t(count) + index;
-        if (at < 0 || at >= int64_t(count))
+        const int64_t element = index > 0 ? int64_t(index) - 1 : int64_t(count) + index;
+        if (element < 0 || element >= int64_t(count))
             throw fail(concat("a face has ", what, " ", index, ", of ", count, " before it"));
-        return int(at);
+        return int(element);
     }
 
     void addFace(const tinyobj::index_t* corners, int count) {

@@ -95,8 +95,8 @@ class OffReader {
     void readVertex() {
         takeNumbers("a vertex");
         const size_t colors = hasColors_ ? 4 : 0;
-        size_t at = 3;
-        if (numbers_.size() < at + (hasNormals_ ? 3 : 0) + colors + (hasUvs_ ? 2 : 0))
+        size_t offset = 3;
+        if (numbers_.size() < offset + (hasNormals_ ? 3 : 0) + colors + (hasUvs_ ? 2 : 0))
             throw fail(concat("expected the numbers of a vertex: x y z", hasNormals_ ? ", its normal" : "",
                               hasColors_ ? ", r g b a" : "", hasUvs_ ? ", s t" : ""));
         const glm::dvec3 p(numbers_[0], numbers_[1], numbers_[2]);
@@ -104,17 +104,17 @@ class OffReader {
         mesh_.positions.push_back(p);
         glm::dvec3 normal(0);
         if (hasNormals_) {
-            normal = {numbers_[at], numbers_[at + 1], numbers_[at + 2]};
-            at += 3;
+            normal = {numbers_[offset], numbers_[offset + 1], numbers_[offset + 2]};
+            offset += 3;
         }
         mesh_.normals.push_back(unit(normal));
-        if (hasColors_) mesh_.colors.push_back(takeColor(at, 4));
-        at += colors;
+        if (hasColors_) mesh_.colors.push_back(takeColor(offset, 4));
+        offset += colors;
         if (hasUvs_) {
-            mesh_.uvs.push_back(finiteUv({numbers_[at], numbers_[at + 1]}));
-            at += 2;
+            mesh_.uvs.push_back(finiteUv({numbers_[offset], numbers_[offset + 1]}));
+            offset += 2;
         }
-        if (numbers_.size() > at) ++longVertices_;
+        if (numbers_.size() > offset) ++longVertices_;
     }
 
     // The corners' count, the corners, and a colour: three or four numbers, or that of a table that is not
@@ -145,13 +145,13 @@ class OffReader {
     }
 
     // As the file has it: bytes, where one of them is above 1, else shares.
-    glm::dvec3 takeColor(size_t at, size_t count) {
-        glm::dvec3 color(numbers_[at], numbers_[at + 1], numbers_[at + 2]);
+    glm::dvec3 takeColor(size_t offset, size_t count) {
+        glm::dvec3 color(numbers_[offset], numbers_[offset + 1], numbers_[offset + 2]);
         if (!isFinite(color)) color = glm::dvec3(1);
         most_ = std::max({most_, color.r, color.g, color.b});
         if (count > 3) {
-            most_ = std::max(most_, numbers_[at + 3]);
-            leastAlpha_ = std::min(leastAlpha_, numbers_[at + 3]);
+            most_ = std::max(most_, numbers_[offset + 3]);
+            leastAlpha_ = std::min(leastAlpha_, numbers_[offset + 3]);
         }
         return color;
     }

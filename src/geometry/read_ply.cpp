@@ -101,9 +101,9 @@ class Columns {
     }
 
     bool has(Means means) const { return at_[size_t(means)] >= 0; }
-    // The row's number; `otherwise` where there is no such column.
-    double number(const PlyRow& row, Means means, double otherwise = 0) const {
-        return has(means) ? row.numbers[size_t(at_[size_t(means)])] : otherwise;
+    // The row's number; `fallback` where there is no such column.
+    double number(const PlyRow& row, Means means, double fallback = 0) const {
+        return has(means) ? row.numbers[size_t(at_[size_t(means)])] : fallback;
     }
     double share(const PlyRow& row, Means means) const {
         return has(means) ? number(row, means) / full_[size_t(means)] : 1;

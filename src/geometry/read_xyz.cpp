@@ -29,14 +29,14 @@ Mesh readXyz(const ModelFile& model) {
     std::vector<glm::dvec3> colors;
     bool anyColor = false;
     int line = 0;
-    for (size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-        end = std::min(text.find('\n', at), text.size());
+    for (size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
         ++line;
         const auto fail = [&](const char* what) {
             return Error(Location{model.name}, "line ", line, ": ", what);
         };
         numbers.clear();
-        const std::string_view whole(text.data() + at, end - at);
+        const std::string_view whole(text.data() + begin, end - begin);
         if (!readNumbers(whole.substr(0, whole.find('#')), numbers))
             throw fail("expected the numbers of a point, x y z");
         if (numbers.empty()) continue;

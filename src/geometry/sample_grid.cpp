@@ -13,7 +13,7 @@ namespace {
 
 // A triangle in units of cells from the first sample, with its welded vertices.
 struct ScanCorners {
-    std::array<glm::dvec3, 3> at;
+    std::array<glm::dvec3, 3> points;
     std::array<int, 3> vertex;
 };
 
@@ -46,7 +46,7 @@ class Scan {
     void cross(const ScanCorners& t, int from, int to) {
         glm::dvec2 p[3], low(1e300), high(-1e300);
         for (int i = 0; i < 3; ++i) {
-            p[i] = {t.at[size_t(i)][u_], t.at[size_t(i)][v_]};
+            p[i] = {t.points[size_t(i)][u_], t.points[size_t(i)][v_]};
             low = glm::min(low, p[i]);
             high = glm::max(high, p[i]);
         }
@@ -75,15 +75,15 @@ class Scan {
         const double sum = areas[0] + areas[1] + areas[2];
         double depth = 0;
         for (int i = 0; i < 3; ++i)
-            depth += t.at[size_t(i)][axis_] * (sum > 0 ? areas[i] / sum : 1 / 3.0);
+            depth += t.points[size_t(i)][axis_] * (sum > 0 ? areas[i] / sum : 1 / 3.0);
         // anticlockwise: its normal points along the line, which leaves the volume here
         const double next = std::ceil(depth);
         if (next >= grid_.size[axis_]) return;
-        int16_t& count = counts_[at(int(std::max(next, 0.0)), u, v)];
+        int16_t& count = counts_[indexOf(int(std::max(next, 0.0)), u, v)];
         count = int16_t(count + (sides > 0 ? -1 : 1));
     }
 
-    size_t at(int along, int u, int v) const {
+    size_t indexOf(int along, int u, int v) const {
         glm::ivec3 sample;
         sample[axis_] = along, sample[u_] = u, sample[v_] = v;
         return grid_.index(sample.x, sample.y, sample.z);
@@ -93,7 +93,8 @@ class Scan {
         for (int v = from; v < to; ++v)
             for (int u = 0; u < grid_.size[u_]; ++u)
                 for (int i = 1; i < grid_.size[axis_]; ++i)
-                    counts_[at(i, u, v)] = int16_t(counts_[at(i, u, v)] + counts_[at(i - 1, u, v)]);
+                    counts_[indexOf(i, u, v)] =
+                        int16_t(counts_[indexOf(i, u, v)] + counts_[indexOf(i - 1, u, v)]);
     }
 
     const std::vector<ScanCorners>& triangles_;
@@ -120,7 +121,7 @@ std::vector<int16_t> windingNumbers(const Mesh& mesh, const SampleGrid& grid, in
         ScanCorners corners;
         for (int i = 0; i < 3; ++i) {
             corners.vertex[size_t(i)] = mesh.weld[size_t(t[i])];
-            corners.at[size_t(i)] =
+            corners.points[size_t(i)] =
                 (mesh.weldedPositions[size_t(corners.vertex[size_t(i)])] - grid.low) / grid.cell;
         }
         const auto& v = corners.vertex;

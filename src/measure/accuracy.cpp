@@ -78,8 +78,8 @@ class Sweep {
     std::vector<Curve>& curves() {
         std::vector<SolverKind> kinds = options_.solvers;
         if (kinds.empty())
-            for (const Solver& one : solvers())
-                kinds.push_back(one.kind);
+            for (const Solver& solver : solvers())
+                kinds.push_back(solver.kind);
         std::vector<FieldSampling> samplings = options_.samplings;
         if (samplings.empty()) samplings = samplingsThatDiffer(few_);
         for (const SolverKind kind : kinds) {
@@ -133,7 +133,7 @@ class Sweep {
         constexpr Step other{8, 1};
         runner.set(other);
         const double seconds = runner.warmUp();
-        return std::max(0.0, seconds - cost.of(other));
+        return std::max(0.0, seconds - cost.seconds(other));
     }
 
     void describe() {
@@ -178,7 +178,7 @@ class Sweep {
     }
 
     double secondsOf(const Curve& curve, const Step& step) const {
-        return curve.fewStep + curve.fewCost.of(step) * (frames_ * step.split + 1);
+        return curve.fewStep + curve.fewCost.seconds(step) * (frames_ * step.split + 1);
     }
     double secondsOfErrors() const {
         double out = 0;
@@ -188,7 +188,7 @@ class Sweep {
         return out;
     }
     static Contender contender(Curve& curve, const Step& step) {
-        return {curve.many.get(), step, curve.manyCost.of(step), curve.manyStep};
+        return {curve.many.get(), step, curve.manyCost.seconds(step), curve.manyStep};
     }
     double secondsOfTimes() {
         std::vector<Contender> all;
@@ -266,9 +266,9 @@ class Sweep {
     void extra(const Method& method, const Step& step) {
         for (Curve& curve : curves_) {
             if (curve.method != method || !curve.refused.empty()) continue;
-            const bool there = std::any_of(curve.points.begin(), curve.points.end(),
+            const bool known = std::any_of(curve.points.begin(), curve.points.end(),
                                            [&](const AccuracyPoint& p) { return p.step == step; });
-            if (!there && curve.few->refusal(step).empty()) measure(curve, step);
+            if (!known && curve.few->refusal(step).empty()) measure(curve, step);
         }
     }
 

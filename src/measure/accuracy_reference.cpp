@@ -93,57 +93,58 @@ ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Sna
     for (const GroupPlan& group : plan.groups)
         names_.push_back(group.name);
     for (const auto& [g, m] : which) {
-        One one;
-        one.group = g;
-        one.index = m;
-        one.problem = problemOf(scene, plan.groups[g], m);
-        one.size = one.problem.size();
-        one.start = one.end = stateOf(starts[g], m);
+        ExactMolecule molecule;
+        molecule.group = g;
+        molecule.index = m;
+        molecule.problem = problemOf(scene, plan.groups[g], m);
+        molecule.size = molecule.problem.size();
+        molecule.start = molecule.end = stateOf(starts[g], m);
         if (molecules_.empty() || molecules_.back().group != g)
-            secondsPerStep_ = std::max(secondsPerStep_, measureStep(one.problem, one.start, duration_));
-        molecules_.push_back(std::move(one));
+            secondsPerStep_ =
+                std::max(secondsPerStep_, measureStep(molecule.problem, molecule.start, duration_));
+        molecules_.push_back(std::move(molecule));
     }
 }
 
 // Estimates the seconds of one molecule as most need them: its step is halved six times or, where contact
 // breaks the order, as often as is allowed. Then the last halving is left out, because it would not end in
 // time.
-double ExactEnds::secondsOf(const One& one, double most) const {
-    const bool smooth = one.problem.colliders.empty();
-    const double first = double(reference::firstSteps(one.problem, duration_)) * secondsPerStep_;
+double ExactEnds::secondsOf(const ExactMolecule& molecule, double most) const {
+    const bool smooth = molecule.problem.colliders.empty();
+    const double first = double(reference::firstSteps(molecule.problem, duration_)) * secondsPerStep_;
     return std::min(smooth ? most : most / 2, first * (smooth ? 127 : 8191));
 }
 
 double ExactEnds::secondsToSolve(double secondsAMolecule) const {
     double out = 0;
-    for (const One& one : molecules_)
-        out += secondsOf(one, secondsAMolecule);
+    for (const ExactMolecule& molecule : molecules_)
+        out += secondsOf(molecule, secondsAMolecule);
     return out / std::min(cores_, std::max(1, molecules()));
 }
 
-std::string ExactEnds::nameOf(const One& one) const {
-    return concat("molecule ", one.index, " of \"", names_[one.group], "\"");
+std::string ExactEnds::nameOf(const ExactMolecule& molecule) const {
+    return concat("molecule ", molecule.index, " of \"", names_[molecule.group], "\"");
 }
 
 // Decides beforehand, with a margin for the uncertainty of the estimate. A molecule that passes by mistake is
 // ended by the clock.
-bool ExactEnds::tooStiff(const One& one, double seconds) {
-    const double steps = double(reference::firstSteps(one.problem, duration_));
+bool ExactEnds::tooStiff(const ExactMolecule& molecule, double seconds) {
+    const double steps = double(reference::firstSteps(molecule.problem, duration_));
     if (3 * steps * secondsPerStep_ < 2 * seconds) return false;
-    why_ = concat(nameOf(one), " takes ", steps, " steps and more over ", duration_,
+    why_ = concat(nameOf(molecule), " takes ", steps, " steps and more over ", duration_,
                   " s, which is too stiff for a reference in ", seconds, " s");
     return true;
 }
 
-Settled ExactEnds::judge(const One& one, const reference::Solution& solution, double seconds) {
+Settled ExactEnds::judge(const ExactMolecule& molecule, const reference::Solution& solution, double seconds) {
     using reference::Ended;
     if (solution.converged) return Settled::yes;
     // A slow machine ends early: what still changes much then need not be chaotic.
     if (solution.ended == Ended::outOfTime && !(solution.error <= mostChange)) {
-        why_ = concat(nameOf(one), " is too stiff for a reference in ", seconds, " s");
+        why_ = concat(nameOf(molecule), " is too stiff for a reference in ", seconds, " s");
         return Settled::tooStiff;
     }
-    why_ = concat("the reference of ", nameOf(one), " still changes by ", solution.error,
+    why_ = concat("the reference of ", nameOf(molecule), " still changes by ", solution.error,
                   " of its size when its step is halved to ", solution.step, " s");
     if (solution.ended == Ended::outOfTime) {
         why_ += concat(", which is as far as ", seconds, " s go");
@@ -166,24 +167,25 @@ void ExactEnds::keep(std::vector<reference::Solution>& solutions) {
 Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
     tolerance = std::max(tolerance, floor);
     if (tolerance >= tolerance_) return Settled::yes;
-    for (const One& one : molecules_)
-        if (tooStiff(one, secondsAMolecule)) return Settled::tooStiff;
+    for (const ExactMolecule& molecule : molecules_)
+        if (tooStiff(molecule, secondsAMolecule)) return Settled::tooStiff;
     std::vector<reference::Solution> solutions(molecules_.size());
     std::atomic<bool> hopeless = false;  // one that is too stiff or chaotic is enough
     constexpr int halvings = 12;
     parallel(int(molecules_.size()), cores_, [&](int i) {
         if (hopeless) return;
-        const One& one = molecules_[size_t(i)];
+        const ExactMolecule& molecule = molecules_[size_t(i)];
         reference::Solution& solution = solutions[size_t(i)];
-        solution = reference::solve(one.problem, one.start, duration_, tolerance, halvings, secondsAMolecule);
+        solution = reference::solve(molecule.problem, molecule.start, duration_, tolerance, halvings,
+                                    secondsAMolecule);
         if (!solution.converged && !(solution.error <= mostChange)) hopeless = true;
     });
     Settled worst = Settled::yes;
     std::string why;
     for (size_t i = 0; i < solutions.size(); ++i) {
-        const Settled one = judge(molecules_[i], solutions[i], secondsAMolecule);
-        if (one <= worst) continue;
-        worst = one;
+        const Settled settled = judge(molecules_[i], solutions[i], secondsAMolecule);
+        if (settled <= worst) continue;
+        worst = settled;
         why = why_;
     }
     why_ = why;
@@ -205,16 +207,16 @@ bool ExactEnds::finite(const std::vector<Snapshot>& ends) {
 ErrorParts ExactEnds::errorOf(const std::vector<Snapshot>& ends) const {
     ErrorParts out;
     const double count = double(molecules_.size());
-    for (const One& one : molecules_) {
+    for (const ExactMolecule& molecule : molecules_) {
         const reference::Deviation d =
-            reference::deviation(stateOf(ends[one.group], one.index), one.end, one.size);
+            reference::deviation(stateOf(ends[molecule.group], molecule.index), molecule.end, molecule.size);
         out.total += d.total * d.total / count;
         out.centroid += d.centroid * d.centroid / count;
         out.shape += d.shape * d.shape / count;
         if (d.total < out.worst) continue;
         out.worst = d.total;
-        out.worstGroup = one.group;
-        out.worstMolecule = one.index;
+        out.worstGroup = molecule.group;
+        out.worstMolecule = molecule.index;
     }
     out.total = std::sqrt(out.total);
     out.centroid = std::sqrt(out.centroid);
@@ -224,8 +226,9 @@ ErrorParts ExactEnds::errorOf(const std::vector<Snapshot>& ends) const {
 
 std::vector<double> ExactEnds::eachOf(const std::vector<Snapshot>& ends) const {
     std::vector<double> out;
-    for (const One& one : molecules_)
-        out.push_back(reference::relativeError(stateOf(ends[one.group], one.index), one.end, one.size));
+    for (const ExactMolecule& molecule : molecules_)
+        out.push_back(reference::relativeError(stateOf(ends[molecule.group], molecule.index), molecule.end,
+                                               molecule.size));
     return out;
 }
 
@@ -235,29 +238,30 @@ std::optional<size_t> ExactEnds::placeOf(size_t group, int molecule) const {
     return std::nullopt;
 }
 
-Drift ExactEnds::driftOf(const One& one, const reference::State& end) const {
-    const reference::Problem& p = one.problem;
+Drift ExactEnds::driftOf(const ExactMolecule& molecule, const reference::State& end) const {
+    const reference::Problem& p = molecule.problem;
     const double mass = p.molecule->mass();
     const auto moving = [&](const reference::State& state) {
         return reference::kineticEnergy(p, state) + reference::springEnergy(p, state);
     };
-    const double energyScale =
-        std::max({moving(one.start), moving(one.end), mass * glm::length(p.gravity) * one.size});
+    const double energyScale = std::max(
+        {moving(molecule.start), moving(molecule.end), mass * glm::length(p.gravity) * molecule.size});
     const double momentumScale = std::sqrt(2 * mass * energyScale);
-    return {ratio(std::abs(reference::energy(p, end) - reference::energy(p, one.end)), energyScale),
-            ratio(glm::length(reference::momentum(p, end) - reference::momentum(p, one.end)), momentumScale),
-            ratio(glm::length(ownAngularMomentum(p, end) - ownAngularMomentum(p, one.end)),
-                  momentumScale * one.size)};
+    return {
+        ratio(std::abs(reference::energy(p, end) - reference::energy(p, molecule.end)), energyScale),
+        ratio(glm::length(reference::momentum(p, end) - reference::momentum(p, molecule.end)), momentumScale),
+        ratio(glm::length(ownAngularMomentum(p, end) - ownAngularMomentum(p, molecule.end)),
+              momentumScale * molecule.size)};
 }
 
 Drift ExactEnds::driftOf(const std::vector<Snapshot>& ends) const {
     Drift out;
     const double count = double(molecules_.size());
-    for (const One& one : molecules_) {
+    for (const ExactMolecule& molecule : molecules_) {
         // at the reference's own time, on which the muscles' rest lengths depend
-        reference::State end = stateOf(ends[one.group], one.index);
-        end.time = one.end.time;
-        const Drift d = driftOf(one, end);
+        reference::State end = stateOf(ends[molecule.group], molecule.index);
+        end.time = molecule.end.time;
+        const Drift d = driftOf(molecule, end);
         out.energy += d.energy * d.energy / count;
         out.momentum += d.momentum * d.momentum / count;
         out.angularMomentum += d.angularMomentum * d.angularMomentum / count;

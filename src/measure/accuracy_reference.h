@@ -72,21 +72,21 @@ class ExactEnds {
     static reference::State stateOf(const Snapshot& snapshot, int molecule);
 
   private:
-    struct One {
+    struct ExactMolecule {
         size_t group = 0;
         int index = 0;  // in the group
         double size = 1;
         reference::Problem problem;
         reference::State start, end;
     };
-    Drift driftOf(const One& one, const reference::State& end) const;
-    double secondsOf(const One& one, double most) const;
-    bool tooStiff(const One& one, double seconds);
-    Settled judge(const One& one, const reference::Solution& solution, double seconds);
+    Drift driftOf(const ExactMolecule& molecule, const reference::State& end) const;
+    double secondsOf(const ExactMolecule& molecule, double most) const;
+    bool tooStiff(const ExactMolecule& molecule, double seconds);
+    Settled judge(const ExactMolecule& molecule, const reference::Solution& solution, double seconds);
     void keep(std::vector<reference::Solution>& solutions);
-    std::string nameOf(const One& one) const;
+    std::string nameOf(const ExactMolecule& molecule) const;
 
-    std::vector<One> molecules_;
+    std::vector<ExactMolecule> molecules_;
     double duration_;
     int cores_;
     double secondsPerStep_ = 0, tolerance_ = 1e30, error_ = 1e30;

@@ -13,16 +13,16 @@ constexpr double sampleSeconds = 0.002;   // shorter samples are mostly noise
 constexpr int leastSamples = 3, mostSamples = 15;
 constexpr double usualSeconds = 30;  // of all samples, where nothing bounds them
 
-int framesOfSample(const Contender& one) {
-    if (one.secondsOfFrame > slowFrameSeconds) return 1;
-    return std::clamp(int(sampleSeconds / std::max(one.secondsOfFrame, 1e-7)), 2, 32);
+int framesOfSample(const Contender& contender) {
+    if (contender.secondsOfFrame > slowFrameSeconds) return 1;
+    return std::clamp(int(sampleSeconds / std::max(contender.secondsOfFrame, 1e-7)), 2, 32);
 }
 
-double sample(const Contender& one) {
-    MethodRunner& runner = *one.runner;
-    runner.set(one.step);
+double sample(const Contender& contender) {
+    MethodRunner& runner = *contender.runner;
+    runner.set(contender.step);
     runner.warmUp();
-    const int frames = framesOfSample(one);
+    const int frames = framesOfSample(contender);
     const Clock::time_point start = Clock::now();
     for (int i = 0; i < frames; ++i)
         runner.frame();
@@ -32,14 +32,14 @@ double sample(const Contender& one) {
 
 }  // namespace
 
-double secondsOfVisit(const Contender& one) {
-    return one.secondsOfStep + one.secondsOfFrame * (framesOfSample(one) + 1) + 1e-3;
+double secondsOfVisit(const Contender& contender) {
+    return contender.secondsOfStep + contender.secondsOfFrame * (framesOfSample(contender) + 1) + 1e-3;
 }
 
 double leastSeconds(const std::vector<Contender>& contenders) {
     double out = 0;
-    for (const Contender& one : contenders)
-        out += leastSamples * secondsOfVisit(one);
+    for (const Contender& contender : contenders)
+        out += leastSamples * secondsOfVisit(contender);
     return std::max(out, std::min(usualSeconds, out / leastSamples * mostSamples));
 }
 
@@ -56,18 +56,18 @@ std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<do
 }
 
 void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
-                 const std::function<double()>& now, const std::function<void(size_t)>& visit) {
+                 const std::function<double()>& clock, const std::function<void(size_t)>& visit) {
     Schedule schedule;
     schedule.seconds = seconds.value_or(usualSeconds);
     schedule.leastSamples = seconds ? 1 : leastSamples;
     schedule.mostSamples = mostSamples;
-    const double start = now();
+    const double start = clock();
     std::vector<double> dearest = cost;
     const auto visitInTime = [&](size_t i) {
-        const double before = now();
+        const double before = clock();
         if (seconds && before - start + dearest[i] > *seconds) return;
         visit(i);
-        dearest[i] = std::max(dearest[i], now() - before);
+        dearest[i] = std::max(dearest[i], clock() - before);
     };
     // all once before any twice
     VisitPlan plan = planVisits(cost, schedule);
@@ -81,8 +81,8 @@ void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
 std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::optional<double> seconds,
                                const std::function<void(double)>& tell) {
     std::vector<double> all, cost;
-    for (const Contender& one : contenders)
-        all.push_back(secondsOfVisit(one));
+    for (const Contender& contender : contenders)
+        all.push_back(secondsOfVisit(contender));
     const std::vector<bool> fits = thoseThatFit(all, seconds);
     std::vector<size_t> places;
     for (size_t i = 0; i < contenders.size(); ++i) {
@@ -95,15 +95,15 @@ std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::op
     std::sort(cost.begin(), cost.end());
     std::vector<std::vector<double>> samples(contenders.size());
     double done = 0;
-    const auto now = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
-    visitInTurn(cost, seconds, now, [&](size_t i) {
+    const auto clock = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
+    visitInTurn(cost, seconds, clock, [&](size_t i) {
         samples[places[i]].push_back(sample(contenders[places[i]]));
         tell(done += cost[i]);
     });
     std::vector<Spread> out;
     out.reserve(samples.size());
-    for (const std::vector<double>& one : samples)
-        out.push_back(spreadOf(one));
+    for (const std::vector<double>& times : samples)
+        out.push_back(spreadOf(times));
     return out;
 }
 

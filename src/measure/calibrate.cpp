@@ -37,8 +37,8 @@ class Search {
     Calibration run() {
         std::vector<SolverKind> kinds = options_.solvers;
         if (kinds.empty())
-            for (const Solver& one : solvers())
-                kinds.push_back(one.kind);
+            for (const Solver& solver : solvers())
+                kinds.push_back(solver.kind);
         std::vector<FieldSampling> samplings = options_.samplings;
         if (samplings.empty()) samplings = samplingsThatDiffer(few_);
         // of second order and more first: they get there soonest
@@ -51,10 +51,10 @@ class Search {
         const double best = ahead == nullptr ? 0 : ahead->candidate.cost;
         const size_t firsts = runs_.size();
         for (size_t i = 0; i < firsts; ++i) {
-            const Candidate one = runs_[i].candidate;
-            if (!one.reached || one.cost > worthSampling * best) continue;
+            const Candidate candidate = runs_[i].candidate;
+            if (!candidate.reached || candidate.cost > worthSampling * best) continue;
             for (size_t s = 1; s < samplings.size() && !late(); ++s)
-                probe({one.method.solver, samplings[s]});
+                probe({candidate.method.solver, samplings[s]});
         }
         searchAll();
         timeAgain();
@@ -210,19 +210,20 @@ class Search {
 
     // Takes more substeps until what the few molecules have shown holds over the sample.
     bool holds(Run& run) {
-        Candidate& one = run.candidate;
+        Candidate& candidate = run.candidate;
         for (int tries = 0;; ++tries) {
-            run.sample = errorOfSample(run, one.substeps);
-            one.error = run.sample.rms;
-            one.worst = run.sample.worst;
+            run.sample = errorOfSample(run, candidate.substeps);
+            candidate.error = run.sample.rms;
+            candidate.worst = run.sample.worst;
             if (run.sample.holds(options_.error)) return true;
-            const int next = std::max(one.substeps + 1, int(std::lround(1.3 * one.substeps)));
-            one.why = concat("does not get there: at ", one.substeps, " substeps ", run.sample.above, " of ",
-                             run.sample.measured, " molecules are above, the worst at ", run.sample.worst);
+            const int next = std::max(candidate.substeps + 1, int(std::lround(1.3 * candidate.substeps)));
+            candidate.why =
+                concat("does not get there: at ", candidate.substeps, " substeps ", run.sample.above, " of ",
+                       run.sample.measured, " molecules are above, the worst at ", run.sample.worst);
             if (options_.substeps || tries == mostTries || late() || next > maxSubsteps ||
                 !run.few->refusal({next, 1}).empty() || !canWin(run, next))
                 return false;
-            one.substeps = next;
+            candidate.substeps = next;
         }
     }
 
@@ -277,7 +278,7 @@ class Search {
         Run* best = cheapest();
         if (best == nullptr) return true;
         Candidate& ahead = best->candidate;
-        double expected = perVertex(run, run.frame.of({substeps, 1}));
+        double expected = perVertex(run, run.frame.seconds({substeps, 1}));
         if (!losesAgain(
                 expected, ahead.cost, [&] { return costAt(run, substeps); },
                 [&] { return costAt(*best, ahead.substeps); }))
@@ -319,8 +320,9 @@ class Search {
         const Run* best = cheapest();
         const Run* nearest = nullptr;
         for (const Run& run : runs_) {
-            const Candidate& one = run.candidate;
-            if (one.error && (nearest == nullptr || *one.error < *nearest->candidate.error)) nearest = &run;
+            const Candidate& candidate = run.candidate;
+            if (candidate.error && (nearest == nullptr || *candidate.error < *nearest->candidate.error))
+                nearest = &run;
         }
         if (best == nullptr) refuse(nearest == nullptr ? nullptr : &nearest->candidate);
         Calibration out;

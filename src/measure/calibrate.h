@@ -6,7 +6,7 @@
 //
 // The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
 // on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,
-// the kernels, the driver, the processor, the version. One that ran out of time is not kept.
+// the kernels, the driver, the processor, the version. SampledMolecule that ran out of time is not kept.
 #pragma once
 
 #include <functional>
@@ -120,7 +120,7 @@ class MoleculeSample {
     SampleError errorOf(const std::vector<Snapshot>& ends);
 
   private:
-    struct One {
+    struct SampledMolecule {
         size_t group = 0;
         int index = 0;                   // in the group
         double size = 1;                 // m
@@ -131,8 +131,8 @@ class MoleculeSample {
     };
     bool settleBy(SolverKind kind);
     std::vector<double> distances(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) const;
-    void ask(One& one);
-    bool told(const One& one) const;
+    void ask(SampledMolecule& molecule);
+    bool told(const SampledMolecule& molecule) const;
     bool settled() const;
 
     const Scene& scene_;
@@ -144,7 +144,7 @@ class MoleculeSample {
     std::unique_ptr<MethodRunner> runner_;  // whose plan and starts the references are of
     std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
     std::string by_;
-    std::vector<One> molecules_;
+    std::vector<SampledMolecule> molecules_;
     int asked_ = 0;
 };
 

@@ -19,9 +19,9 @@ constexpr int layoutVersion = 3;
 class Hash {
   public:
     void bytes(const void* data, size_t size) {
-        const auto* at = static_cast<const unsigned char*>(data);
+        const auto* bytes = static_cast<const unsigned char*>(data);
         for (size_t i = 0; i < size; ++i)
-            value_ = (value_ ^ at[i]) * 1099511628211ull;
+            value_ = (value_ ^ bytes[i]) * 1099511628211ull;
     }
     void add(const std::string& text) {
         add(double(text.size()));
@@ -78,11 +78,12 @@ void addDevice(Hash& hash, const AccuracyDevice& device) {
         hash.add(number);
 }
 
-JsonValue asJson(const Candidate& one) {
-    const std::optional<double> cost = one.cost > 0 ? std::optional(one.cost) : std::nullopt;
-    return object(key("solver", name(one.method.solver)), key("fieldSampling", name(one.method.sampling)),
-                  key("substeps", one.substeps), key("error", one.error), key("worst", one.worst),
-                  key("secondsPerVertexAndSecond", cost), key("reached", one.reached), key("why", one.why));
+JsonValue asJson(const Candidate& candidate) {
+    const std::optional<double> cost = candidate.cost > 0 ? std::optional(candidate.cost) : std::nullopt;
+    return object(
+        key("solver", name(candidate.method.solver)), key("fieldSampling", name(candidate.method.sampling)),
+        key("substeps", candidate.substeps), key("error", candidate.error), key("worst", candidate.worst),
+        key("secondsPerVertexAndSecond", cost), key("reached", candidate.reached), key("why", candidate.why));
 }
 
 Method methodOf(JsonReader& reader) {
@@ -91,8 +92,8 @@ Method methodOf(JsonReader& reader) {
     reader.need("fieldSampling", sampling);
     Method out;
     out.solver = solverOf(solver).value_or(SolverKind::leapfrog);
-    for (const FieldSampling one : allSamplings)
-        if (sampling == name(one)) out.sampling = one;
+    for (const FieldSampling candidate : allSamplings)
+        if (sampling == name(candidate)) out.sampling = candidate;
     return out;
 }
 
@@ -145,15 +146,16 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
     return hash.digits();
 }
 
-JsonValue asJson(const Calibration& one) {
-    return object(key("target", one.target), key("solver", name(one.method.solver)),
-                  key("fieldSampling", name(one.method.sampling)), key("substeps", one.substeps),
-                  key("error", one.error), key("worst", one.sample.worst),
-                  key("measured", one.sample.measured), key("above", one.sample.above),
-                  key("compared", one.sample.compared), key("untold", one.sample.untold), key("how", one.how),
-                  key("secondsPerVertexAndSecond", one.cost), key("duration", one.duration),
-                  key("why", one.why), key("seconds", one.seconds),
-                  key("candidates", arrayOf(one.candidates, asJson)));
+JsonValue asJson(const Calibration& calibration) {
+    return object(key("target", calibration.target), key("solver", name(calibration.method.solver)),
+                  key("fieldSampling", name(calibration.method.sampling)),
+                  key("substeps", calibration.substeps), key("error", calibration.error),
+                  key("worst", calibration.sample.worst), key("measured", calibration.sample.measured),
+                  key("above", calibration.sample.above), key("compared", calibration.sample.compared),
+                  key("untold", calibration.sample.untold), key("how", calibration.how),
+                  key("secondsPerVertexAndSecond", calibration.cost), key("duration", calibration.duration),
+                  key("why", calibration.why), key("seconds", calibration.seconds),
+                  key("candidates", arrayOf(calibration.candidates, asJson)));
 }
 
 std::optional<Calibration> loadCalibration(const std::string& folder, const std::string& key) {

@@ -24,7 +24,7 @@ MethodRunner::MethodRunner(Scene scene, Method method, const AccuracyDevice& dev
     scene_.solver.fieldSampling = method.sampling;
 }
 
-Scene MethodRunner::at(Step step) const {
+Scene MethodRunner::sceneAt(Step step) const {
     Scene out = scene_;
     out.solver.substeps = step.substeps;
     out.frameRate *= step.split;
@@ -33,7 +33,7 @@ Scene MethodRunner::at(Step step) const {
 
 std::string MethodRunner::refusal(Step step) const {
     try {
-        compile(withMolecules(at(step), 1));  // whether it is refused does not depend on their number
+        compile(withMolecules(sceneAt(step), 1));  // whether it is refused does not depend on their number
         return {};
     } catch (const Error& error) {
         return error.message();
@@ -48,7 +48,7 @@ void MethodRunner::set(Step step) {
         options.lanes = device_.lanes;
         options.inPlace = device_.inPlace;
         options.watchdog = false;  // what blows up is an outcome here
-        simulation_ = std::make_unique<Simulation>(*device_.context, compile(at(step)), options);
+        simulation_ = std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)), options);
     }
     step_ = step;
     simulation_->parameters.substeps = step.substeps;

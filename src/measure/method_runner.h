@@ -70,7 +70,7 @@ class MethodRunner {
     int64_t vertices() const;  // of all groups
 
   private:
-    Scene at(Step step) const;
+    Scene sceneAt(Step step) const;
 
     Scene scene_;
     Method method_;
@@ -82,7 +82,7 @@ class MethodRunner {
 // A frame of so many substeps takes about base + each * substeps.
 struct FrameCost {
     double base = 0, each = 0;  // s
-    double of(const Step& step) const { return base + each * step.substeps; }
+    double seconds(const Step& step) const { return base + each * step.substeps; }
 };
 FrameCost frameCost(MethodRunner& runner);
 
@@ -98,7 +98,7 @@ struct Contender {
 // Seconds that one visit of a contender takes: its step is set, and one frame from the start is run and
 // waited for, untimed, because it may build programs; back to the start, and a wait; then its first 2 to 32
 // frames are timed, between two waits, or the first one alone where frames are long.
-double secondsOfVisit(const Contender& one);
+double secondsOfVisit(const Contender& contender);
 
 // Estimates the seconds of all samples: the least number of each, and more while they fit into half a minute.
 double leastSeconds(const std::vector<Contender>& contenders);
@@ -106,10 +106,10 @@ double leastSeconds(const std::vector<Contender>& contenders);
 // Flags the contenders that fit when each takes its seconds, cheapest first. Nothing bounds them: all.
 std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<double> seconds);
 
-// Visits in turn, round after round; `visit(i)` is left out where it would end after `seconds`, by `now` (s)
-// and by the dearest of its own visits before.
+// Visits in turn, round after round; `visit(i)` is left out where it would end after `seconds`, by `clock`
+// (s) and by the dearest of its own visits before.
 void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
-                 const std::function<double()>& now, const std::function<void(size_t)>& visit);
+                 const std::function<double()>& clock, const std::function<void(size_t)>& visit);
 
 // Seconds a frame. With `seconds`, what does not fit goes without samples, the dearest first.
 // `tell`: seconds that are done.

@@ -31,8 +31,8 @@ void markFront(std::vector<AccuracyPoint>& points) {
 
 std::optional<AtError> costAt(const std::vector<Sample>& curve, double error) {
     std::optional<AtError> best;
-    const auto offer = [&](const AtError& one) {
-        if (!best || one.time < best->time) best = one;
+    const auto offer = [&](const AtError& offered) {
+        if (!best || offered.time < best->time) best = offered;
     };
     if (!curve.empty() && curve.front().error <= error)
         offer({curve.front().time, curve.front().steps, true});

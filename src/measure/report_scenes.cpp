@@ -22,19 +22,19 @@ class Builder {
     Builder(const char* name, double stiffness) : stiffness_(stiffness) { out_.name = name; }
 
     int vertex(const dvec3& position, bool pinned = false) {
-        Vertex one;
-        one.position = position;
-        one.pinned = pinned;
-        out_.vertices.push_back(one);
+        Vertex vertex;
+        vertex.position = position;
+        vertex.pinned = pinned;
+        out_.vertices.push_back(vertex);
         return int(out_.vertices.size()) - 1;
     }
     void spring(int a, int b) {
-        Spring one;
-        one.a = a;
-        one.b = b;
-        one.stiffness = stiffness_;
-        one.damping = 0.05 * std::sqrt(stiffness_);
-        out_.springs.push_back(one);
+        Spring spring;
+        spring.a = a;
+        spring.b = b;
+        spring.stiffness = stiffness_;
+        spring.damping = 0.05 * std::sqrt(stiffness_);
+        out_.springs.push_back(spring);
     }
     Molecule centred() {
         dvec3 middle(0);
@@ -214,13 +214,13 @@ std::vector<ReportScene> reportScenes(int count) {
     for (const std::string molecule : reportMolecules) {
         for (const std::string motion : reportMotions) {
             for (const double k : reportStiffnesses) {
-                ReportScene& one = out.emplace_back();
-                one.id = concat(molecule, "-", motion, "-1e", int(std::lround(std::log10(k))));
-                one.molecule = molecule;
-                one.motion = motion;
-                one.stiffness = k;
-                one.duration = durationOf(motion);
-                one.scene = sceneOf(molecule, motion, k, count);
+                ReportScene& scene = out.emplace_back();
+                scene.id = concat(molecule, "-", motion, "-1e", int(std::lround(std::log10(k))));
+                scene.molecule = molecule;
+                scene.motion = motion;
+                scene.stiffness = k;
+                scene.duration = durationOf(motion);
+                scene.scene = sceneOf(molecule, motion, k, count);
             }
         }
     }

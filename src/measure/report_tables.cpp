@@ -28,8 +28,8 @@ const ReportEntry* find(const std::vector<ReportEntry>& entries, const std::stri
 std::optional<BestOf> cheapest(const std::vector<AccuracyPoint>& points, double error) {
     std::optional<BestOf> best;
     for (const Solver& solver : solvers()) {
-        const std::optional<BestOf> one = bestOf(points, solver.kind, error);
-        if (one && (!best || one->cost.time < best->cost.time)) best = one;
+        const std::optional<BestOf> found = bestOf(points, solver.kind, error);
+        if (found && (!best || found->cost.time < best->cost.time)) best = found;
     }
     return best;
 }
@@ -120,8 +120,9 @@ std::string costTable(const std::vector<ReportEntry>& entries, double error) {
         std::vector<std::string> cells = {
             concat(entry.motion, ", ", entry.molecule, ", ", power(entry.stiffness))};
         for (const Solver& solver : solvers()) {
-            const std::optional<BestOf> one = bestOf(entry.accuracy.points, solver.kind, error);
-            cells.push_back(one ? concat(one->cost.atLargestStep ? "≤ " : "", nanoseconds(one->cost.time))
+            const std::optional<BestOf> found = bestOf(entry.accuracy.points, solver.kind, error);
+            cells.push_back(found
+                                ? concat(found->cost.atLargestStep ? "≤ " : "", nanoseconds(found->cost.time))
                                 : notReached(entry.accuracy.points, solver.kind));
         }
         out += row(cells);

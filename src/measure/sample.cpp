@@ -27,19 +27,20 @@ MoleculeSample::MoleculeSample(const Scene& scene, double error, int frames, con
 std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
                                               const std::vector<Snapshot>& b) const {
     std::vector<double> out;
-    for (const One& one : molecules_)
-        out.push_back(reference::relativeError(ExactEnds::stateOf(a[one.group], one.index),
-                                               ExactEnds::stateOf(b[one.group], one.index), one.size));
+    for (const SampledMolecule& molecule : molecules_)
+        out.push_back(reference::relativeError(ExactEnds::stateOf(a[molecule.group], molecule.index),
+                                               ExactEnds::stateOf(b[molecule.group], molecule.index),
+                                               molecule.size));
     return out;
 }
 
-bool MoleculeSample::told(const One& one) const {
-    return one.change <= std::max(roughlyNear * error_, floatNoise);
+bool MoleculeSample::told(const SampledMolecule& molecule) const {
+    return molecule.change <= std::max(roughlyNear * error_, floatNoise);
 }
 
 bool MoleculeSample::settled() const {
-    const auto untold =
-        std::count_if(molecules_.begin(), molecules_.end(), [&](const One& one) { return !told(one); });
+    const auto untold = std::count_if(molecules_.begin(), molecules_.end(),
+                                      [&](const SampledMolecule& molecule) { return !told(molecule); });
     return 100 * untold <= int(molecules_.size());
 }
 
@@ -47,8 +48,8 @@ void MoleculeSample::settle() {
     // another method where one does not settle them: what is stiff stays to the implicit ones
     for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd})
         if (settleBy(kind) || Clock::now() > until_) break;
-    for (One& one : molecules_)
-        if (!told(one)) ask(one);
+    for (SampledMolecule& molecule : molecules_)
+        if (!told(molecule)) ask(molecule);
 }
 
 // Whether it did. What an earlier method settled better stays.
@@ -64,21 +65,21 @@ bool MoleculeSample::settleBy(SolverKind kind) {
     }
     if (2 * substeps > maxSubsteps) return false;
     runner->restart();
-    MethodRunner& by = *runner;
+    MethodRunner& method = *runner;
     if (!runner_) {
         starts_ = runner->snapshots();
         const Plan& plan = runner->simulation().plan();
         for (size_t g = 0; g < starts_.size(); ++g) {
             for (int m = 0; m < starts_[g].count; ++m) {
-                One& one = molecules_.emplace_back();
-                one.group = g;
-                one.index = m;
+                SampledMolecule& molecule = molecules_.emplace_back();
+                molecule.group = g;
+                molecule.index = m;
                 const double size = scene_.groups[plan.groups[g].index].molecule.size() *
                                     double(plan.groups[g].constants.scales[size_t(m)]);
-                one.size = size > 0 ? size : 1;
-                one.inCore = core_.placeOf(g, m);
-                one.given = one.inCore.has_value();
-                if (one.given) one.change = 0;
+                molecule.size = size > 0 ? size : 1;
+                molecule.inCore = core_.placeOf(g, m);
+                molecule.given = molecule.inCore.has_value();
+                if (molecule.given) molecule.change = 0;
             }
         }
         runner_ = std::move(runner);
@@ -87,16 +88,16 @@ bool MoleculeSample::settleBy(SolverKind kind) {
     std::vector<Snapshot> coarse;
     for (; substeps <= maxSubsteps; substeps *= 2) {
         const Clock::time_point start = Clock::now();
-        by.set({substeps, 1});
-        by.run(frames_);
-        const std::vector<Snapshot> fine = by.snapshots();
+        method.set({substeps, 1});
+        method.run(frames_);
+        const std::vector<Snapshot> fine = method.snapshots();
         const double seconds = secondsSince(start);
         if (!coarse.empty() && core_.errorOf(fine).worst <= std::max(error_, floatNoise)) {
             const std::vector<double> change = distances(coarse, fine);
-            const auto sum = [&](const auto& of) {
+            const auto sum = [&](const auto& value) {
                 double out = 0;
                 for (size_t i = 0; i < molecules_.size(); ++i)
-                    if (!molecules_[i].given) out += std::isfinite(of(i)) ? std::min(of(i), 1.0) : 1;
+                    if (!molecules_[i].given) out += std::isfinite(value(i)) ? std::min(value(i), 1.0) : 1;
                 return out;
             };
             if (sum([&](size_t i) { return change[i]; }) <
@@ -107,9 +108,9 @@ bool MoleculeSample::settleBy(SolverKind kind) {
                 ends_ = fine;
                 by_ = concat(shoal::name(kind), " with ", substeps, " substeps");
             }
-            const auto rough = std::count_if(molecules_.begin(), molecules_.end(), [&](const One& one) {
-                return one.change > nearEnough * error_;
-            });
+            const auto rough = std::count_if(
+                molecules_.begin(), molecules_.end(),
+                [&](const SampledMolecule& molecule) { return molecule.change > nearEnough * error_; });
             if (100 * rough <= int(molecules_.size())) return true;
         }
         if (2 * seconds > std::min(secondsARun, -secondsSince(until_))) break;
@@ -118,27 +119,29 @@ bool MoleculeSample::settleBy(SolverKind kind) {
     return settled();
 }
 
-void MoleculeSample::ask(One& one) {
-    if (one.given || asked_ >= mostAsked || Clock::now() > until_) return;
-    one.given = true;
+void MoleculeSample::ask(SampledMolecule& molecule) {
+    if (molecule.given || asked_ >= mostAsked || Clock::now() > until_) return;
+    molecule.given = true;
     ++asked_;
-    const std::vector<std::pair<size_t, int>> which = {{one.group, one.index}};
+    const std::vector<std::pair<size_t, int>> which = {{molecule.group, molecule.index}};
     auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
                                            frames_ / scene_.frameRate, device_.cores, which);
     const Settled settled = own->solve(0.01 * error_, secondsAMolecule);
     if (settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_)) {
-        one.own = std::move(own);
-        one.change = 0;
+        molecule.own = std::move(own);
+        molecule.change = 0;
     } else {
-        one.change = 1e30;
+        molecule.change = 1e30;
     }
 }
 
 std::string MoleculeSample::how() const {
-    const auto exact = std::count_if(molecules_.begin(), molecules_.end(),
-                                     [](const One& one) { return one.inCore || one.own; });
-    const auto others = std::count_if(molecules_.begin(), molecules_.end(),
-                                      [&](const One& one) { return !one.inCore && !one.own && told(one); });
+    const auto exact =
+        std::count_if(molecules_.begin(), molecules_.end(),
+                      [](const SampledMolecule& molecule) { return molecule.inCore || molecule.own; });
+    const auto others = std::count_if(
+        molecules_.begin(), molecules_.end(),
+        [&](const SampledMolecule& molecule) { return !molecule.inCore && !molecule.own && told(molecule); });
     if (others == 0) return concat(exact, " by the reference");
     return concat(exact, " by the reference, ", others, " by ", by_);
 }
@@ -146,26 +149,28 @@ std::string MoleculeSample::how() const {
 SampleError MoleculeSample::errorOf(const std::vector<Snapshot>& ends) {
     const std::vector<double> inCore = core_.eachOf(ends);
     const std::vector<double> apart = ends_.empty() ? std::vector<double>() : distances(ends, ends_);
-    const auto of = [&](size_t i) {
-        const One& one = molecules_[i];
-        return one.inCore ? inCore[*one.inCore] : one.own ? one.own->errorOf(ends).worst : apart[i];
+    const auto errorOf = [&](size_t i) {
+        const SampledMolecule& molecule = molecules_[i];
+        return molecule.inCore ? inCore[*molecule.inCore]
+               : molecule.own  ? molecule.own->errorOf(ends).worst
+                               : apart[i];
     };
     std::vector<size_t> far;
     for (size_t i = 0; i < molecules_.size(); ++i)
-        if (!molecules_[i].given && told(molecules_[i]) && of(i) > mostWorst * error_) far.push_back(i);
+        if (!molecules_[i].given && told(molecules_[i]) && errorOf(i) > mostWorst * error_) far.push_back(i);
     if (int(far.size()) + asked_ <= mostAsked)
         for (const size_t i : far)
             ask(molecules_[i]);
     SampleError out;
     for (size_t i = 0; i < molecules_.size(); ++i) {
-        const One& one = molecules_[i];
-        if (!told(one)) {
+        const SampledMolecule& molecule = molecules_[i];
+        if (!told(molecule)) {
             ++out.untold;
             continue;
         }
         ++out.compared;
-        const bool measured = one.change <= nearEnough * error_;
-        const double error = measured ? of(i) : std::max(0.0, of(i) - one.change);
+        const bool measured = molecule.change <= nearEnough * error_;
+        const double error = measured ? errorOf(i) : std::max(0.0, errorOf(i) - molecule.change);
         out.worst = std::max(out.worst, error);
         if (!measured) continue;
         ++out.measured;

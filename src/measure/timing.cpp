@@ -46,12 +46,13 @@ bool VisitPlan::visits(size_t i, int round) const {
 VisitPlan planVisits(const std::vector<double>& cost, const Schedule& schedule) {
     VisitPlan out;
     const double share = schedule.seconds / double(std::max<size_t>(1, cost.size()));
-    for (const double one : cost) {
-        const double fit = std::min(double(schedule.mostSamples), share / std::max(one, 1e-9));
-        const double least = std::min(double(schedule.leastSamples), schedule.patience / std::max(one, 1e-9));
+    for (const double seconds : cost) {
+        const double fit = std::min(double(schedule.mostSamples), share / std::max(seconds, 1e-9));
+        const double least =
+            std::min(double(schedule.leastSamples), schedule.patience / std::max(seconds, 1e-9));
         out.samples.push_back(int(std::max(least, fit)));
         out.rounds = std::max(out.rounds, out.samples.back());
-        out.seconds += one * out.samples.back();
+        out.seconds += seconds * out.samples.back();
     }
     return out;
 }

@@ -211,14 +211,15 @@ class Checker {
     // more triangles at an edge, as in a cross, none is.
     void findFlipped(const std::vector<Disagreement>& disagreements, const std::vector<int>& times) {
         std::set<size_t> told;
-        for (const Disagreement& one : disagreements) {
-            const bool first = times[one.a] > times[one.b];
-            const size_t turned = first ? one.a : one.b;
+        for (const Disagreement& disagreement : disagreements) {
+            const bool first = times[disagreement.a] > times[disagreement.b];
+            const size_t turned = first ? disagreement.a : disagreement.b;
             if (!told.insert(turned).second) continue;
-            findTriangle(Kind::flipped, turned,
-                         concat("triangle ", turned, " faces the other way than its neighbour ",
-                                first ? one.b : one.a, " across the edge ", one.ends.first, "-",
-                                one.ends.second, ": swap two of its vertices"))
+            findTriangle(
+                Kind::flipped, turned,
+                concat("triangle ", turned, " faces the other way than its neighbour ",
+                       first ? disagreement.b : disagreement.a, " across the edge ", disagreement.ends.first,
+                       "-", disagreement.ends.second, ": swap two of its vertices"))
                 .mendBy("Turn it round", [turned](Draft& draft) {
                     Triangle& t = draft.molecule.triangles[turned];
                     std::swap(t.b, t.c);

@@ -19,11 +19,11 @@ std::vector<int> upTo(size_t count) {
     return out;
 }
 
-// The value that most have; `otherwise` where there are none.
+// The value that most have; `fallback` where there are none.
 template <typename Element>
-double usual(const std::vector<Element>& elements, double Element::*number, double otherwise) {
+double usual(const std::vector<Element>& elements, double Element::*number, double fallback) {
     const auto [value, count] = commonest(elements, number);
-    return count > 0 ? value : otherwise;
+    return count > 0 ? value : fallback;
 }
 
 template <typename T>
@@ -73,8 +73,8 @@ int springBetween(const Molecule& molecule, int a, int b) {
 
 int addSpring(Draft& draft, int a, int b) {
     if (a == b) return -1;
-    const int there = springBetween(draft.molecule, a, b);
-    if (there >= 0) return there;
+    const int existing = springBetween(draft.molecule, a, b);
+    if (existing >= 0) return existing;
     Spring spring;
     spring.a = a;
     spring.b = b;
@@ -183,12 +183,12 @@ void liftDefault(const char* array, const char* key, const JsonValue& root, cons
                  JsonValue& before, JsonValue& after) {
     const JsonValue *defaults = root.find("defaults"), *original = root.find(array);
     const JsonValue* given = defaults ? defaults->find(key) : nullptr;
-    JsonValue *old = find(before, array), *now = find(after, array);
-    if (!given || !original || !old || !now) return;
+    JsonValue *old = find(before, array), *current = find(after, array);
+    if (!given || !original || !old || !current) return;
     std::vector<std::pair<JsonValue*, JsonValue*>> takers;
-    for (size_t i = 0; i < now->items.size(); ++i) {
+    for (size_t i = 0; i < current->items.size(); ++i) {
         if (origins[i] < 0 || original->items[size_t(origins[i])].find(key)) continue;
-        takers.emplace_back(find(old->items[size_t(origins[i])], key), find(now->items[i], key));
+        takers.emplace_back(find(old->items[size_t(origins[i])], key), find(current->items[i], key));
     }
     if (takers.size() < 2) return;
     const double value = takers.front().second->number;
@@ -226,9 +226,9 @@ std::string withEdits(const std::string& text, const Draft& draft) {
     std::vector<TextChange> changes;
     std::set<std::string> done;
     for (const char* key : arrays) {
-        const JsonValue *original = root.find(key), *old = before.find(key), *now = after.find(key);
-        if (!original || !old || !now) continue;
-        addArrayChanges(text, *original, *old, *now, originsOf(draft, key), changes);
+        const JsonValue *original = root.find(key), *old = before.find(key), *current = after.find(key);
+        if (!original || !old || !current) continue;
+        addArrayChanges(text, *original, *old, *current, originsOf(draft, key), changes);
         done.insert(key);
     }
     addChanges(text, root, without(before, done), without(after, done), changes);

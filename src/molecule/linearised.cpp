@@ -96,10 +96,10 @@ MatrixXd rigidMotions(const Molecule& molecule, const Freedom& freedom) {
     MatrixXd out = basisOf(rowsOf(motions, freedom, true) * held, 1e-7);
     double largest = 0;
     for (size_t i = 0; i < freedom.index.size(); ++i) {
-        const int at = freedom.index[i];
-        if (at < 0) continue;
+        const int block = freedom.index[i];
+        if (block < 0) continue;
         const double root = 1 / inverseRootMass(molecule, int(i));
-        out.middleRows<3>(3 * at) *= root;
+        out.middleRows<3>(3 * block) *= root;
         largest = std::max(largest, root);
     }
     return basisOf(out, 1e-9 * largest);

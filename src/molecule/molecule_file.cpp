@@ -43,13 +43,13 @@ struct Defaults {
 };
 
 const Description& describe(const Defaults*) {
-    static const Description it =
+    static const Description description =
         Describe<Defaults>("defaults", "Values of elements that do not give their own.")
             .key("mass", &Defaults::mass, {"kg", "The mass of a vertex.", massLimits})
             .key("stiffness", &Defaults::stiffness, {"N/m", "The stiffness of a spring.", coefficientLimits})
             .key("damping", &Defaults::damping,
                  {"N s/m", "The damping of a spring, else 0.", coefficientLimits});
-    return it;
+    return description;
 }
 
 // The element's own value, else the default, else an error that names both ways to give it.
@@ -112,7 +112,7 @@ void checkEnds(const Spring& spring, const Molecule& molecule, const Where& wher
     checkIndex(spring.a, molecule, where.in("a"));
     checkIndex(spring.b, molecule, where.in("b"));
     if (spring.a == spring.b)
-        throw Error(where.at("b"), "a spring needs two different vertices, found ", spring.a, " twice");
+        throw Error(where.locate("b"), "a spring needs two different vertices, found ", spring.a, " twice");
 }
 
 // A spring acts along the line between its ends: where that has no direction, in the floats of the state,
@@ -134,7 +134,7 @@ void checkNew(const Spring& spring, std::set<std::pair<int, int>>& seen, const W
 
 void checkParts(const Molecule& molecule, const Where& where) {
     if (molecule.vertices.empty())
-        throw Error(where.at("vertices"), "expected at least one vertex, found none");
+        throw Error(where.locate("vertices"), "expected at least one vertex, found none");
     needAtMost(where, "vertices", molecule.vertices.size(), maxMoleculeVertices);
     needAtMost(where, "springs", molecule.springs.size(), maxMoleculeSprings);
     needAtMost(where, "triangles", molecule.triangles.size(), maxMoleculeTriangles);
@@ -153,7 +153,7 @@ void checkParts(const Molecule& molecule, const Where& where) {
     }
     checkSkin(molecule, where.in("skin"));
     if (molecule.material.texture.find('\0') != std::string::npos)
-        throw Error(where.in("material").at("texture"), "expected a file name, found a zero byte in it");
+        throw Error(where.in("material").locate("texture"), "expected a file name, found a zero byte in it");
 }
 
 // Where each element stands in the file.
@@ -175,7 +175,7 @@ const Description& describe(const Vertex*) {
     static const auto writeMass = [](const Vertex& vertex, const void* context) {
         return unlessDefault(vertex.mass, defaultsOf(context).mass);
     };
-    static const Description it =
+    static const Description description =
         Describe<Vertex>("vertex", "A point with a mass.")
             .key("position", &Vertex::position,
                  {"m",
@@ -191,12 +191,12 @@ const Description& describe(const Vertex*) {
             .writes(writeMass)
             .key("pinned", &Vertex::pinned,
                  {"", "Whether it is held where it was placed, until the scene releases it."});
-    return it;
+    return description;
 }
 
 const Description& describe(const Actuation*) {
     using A = Actuation;
-    static const Description it =
+    static const Description description =
         Describe<A>("actuation", "A muscle: L(t) = L (1 + amplitude sin(2π frequency t + phase)).")
             .key("amplitude", &A::amplitude,
                  {"", "The share of the rest length by which it swings.", Range::between(0, 0.99)})
@@ -206,7 +206,7 @@ const Description& describe(const Actuation*) {
             .key("phase", &A::phase,
                  {"rad", "Where in the swing it begins; a group's `phaseSpread` adds to it.",
                   coordinateLimits});
-    return it;
+    return description;
 }
 
 const Description& describe(const Spring*) {
@@ -224,7 +224,7 @@ const Description& describe(const Spring*) {
         if (defaults.spelled) return JsonValue::makeNumber(spring.damping);
         return unlessDefault(spring.damping, defaults.damping.value_or(0));
     };
-    static const Description it =
+    static const Description description =
         Describe<Spring>("spring", "A spring between two vertices, one a pair.")
             .key("a", &Spring::a, {"", "The index of the vertex at one end."})
             .needed()
@@ -247,7 +247,7 @@ const Description& describe(const Spring*) {
             .key("actuation", &Spring::actuation, {"", "A muscle: its rest length swings."})
             .rule([](const Spring&, const Where&) {},
                   R"({"properties": {"a": {"minimum": 0}, "b": {"minimum": 0}}})");
-    return it;
+    return description;
 }
 
 const Description& describe(const Material*) {
@@ -255,7 +255,7 @@ const Description& describe(const Material*) {
     static const auto writeColor = [](const M& material, const void*) {
         return JsonValue::makeVector(material.color);
     };
-    static const Description it =
+    static const Description description =
         Describe<M>("material", "How a molecule looks.")
             .color("color", &M::color, {"", "Its colour, which multiplies the texture.", share})
             .writes(writeColor)
@@ -291,7 +291,7 @@ const Description& describe(const Material*) {
                  {"", "Over how many frames one sort is spread.", Range::between(1, mostSpreadFrames)})
             .only("blend", {"alpha"})
             .only("sort", {"spread"});
-    return it;
+    return description;
 }
 
 const Description& describe(const Molecule*) {
@@ -300,16 +300,17 @@ const Description& describe(const Molecule*) {
     static const auto writeSkinOf = [](const M& molecule, const void*) {
         return molecule.skin.vertices.empty() ? JsonValue() : describeSkin().write(molecule.skin);
     };
-    static const Form triples = {
-        .of = Form::Of::whole, .lists = {{.most = maxMoleculeTriangles}, {3, 3}}, .range = Range::atLeast(0)};
-    static const Description it =
+    static const Form triples = {.value = Form::Value::whole,
+                                 .lists = {{.most = maxMoleculeTriangles}, {3, 3}},
+                                 .range = Range::atLeast(0)};
+    static const Description description =
         Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
             .format("shoal-molecule-1")
             .key("name", &M::name, {"", "Its name, and that of groups that have none."})
-            .byHand<Defaults>("defaults", {.of = Form::Of::keys},
+            .byHand<Defaults>("defaults", {.value = Form::Value::keys},
                               {"object", "Values of elements that do not give their own."}, readDefaults,
                               writeDefaults)
-            .of(describeDefaults())
+            .holdsKeys(describeDefaults())
             .key("vertices", &M::vertices, {"", "Its vertices, 1 to 65,536."})
             .needed()
             .key("springs", &M::springs, {"", "Its springs, at most 1,048,576."})
@@ -318,14 +319,14 @@ const Description& describe(const Molecule*) {
                                "Three different vertices each, anticlockwise seen from the front, at most "
                                "1,048,576. They are drawn, and give normals and directional drag."},
                               readTriangles, writeTriangles)
-            .byHand("skin", {.of = Form::Of::keys}, {"object", describeSkin().sentence()}, readSkinOf,
+            .byHand("skin", {.value = Form::Value::keys}, {"object", describeSkin().sentence()}, readSkinOf,
                     writeSkinOf)
-            .of(describeSkin())
+            .holdsKeys(describeSkin())
             .key("material", &M::material, {"", "How it looks."})
             .derive(findPlaces)
             .rule(checkParts, R"({"properties": {"vertices": {"minItems": 1, "maxItems": 65536},
                                                  "springs": {"maxItems": 1048576}}})");
-    return it;
+    return description;
 }
 
 const Description& describeDefaults() {

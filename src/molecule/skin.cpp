@@ -257,9 +257,9 @@ std::vector<glm::dvec3> skinNormals(const Skin& skin) {
     for (const SkinTriangle& t : skin.triangles) {
         const int corners[] = {t.a, t.b, t.c};
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec3& at = skin.vertices[size_t(corners[i])].position;
-            const glm::dvec3 next = skin.vertices[size_t(corners[(i + 1) % 3])].position - at;
-            const glm::dvec3 last = skin.vertices[size_t(corners[(i + 2) % 3])].position - at;
+            const glm::dvec3& point = skin.vertices[size_t(corners[i])].position;
+            const glm::dvec3 next = skin.vertices[size_t(corners[(i + 1) % 3])].position - point;
+            const glm::dvec3 last = skin.vertices[size_t(corners[(i + 2) % 3])].position - point;
             const glm::dvec3 across = glm::cross(next, last);
             // by its angle, as for models (geometry/mesh.cpp)
             own[size_t(corners[i])] += unit(across) * std::atan2(glm::length(across), glm::dot(next, last));
@@ -348,9 +348,9 @@ std::vector<glm::dvec3> skinPositions(const Molecule& molecule, const std::vecto
     const std::vector<glm::dvec3> normals = vertexNormals(molecule, positions);
     std::vector<glm::dvec3> out;
     for (const SkinVertex& vertex : molecule.skin.vertices) {
-        glm::dvec3 at = sum(vertex.weights, positions);
-        if (vertex.offset != 0) at += vertex.offset * unit(sum(vertex.weights, normals));
-        out.push_back(at);
+        glm::dvec3 position = sum(vertex.weights, positions);
+        if (vertex.offset != 0) position += vertex.offset * unit(sum(vertex.weights, normals));
+        out.push_back(position);
     }
     return out;
 }

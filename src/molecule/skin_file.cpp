@@ -15,9 +15,9 @@ constexpr double mostSumError = 1e-5;
 
 using Kind = JsonValue::Kind;
 
-void checkIndex(double number, size_t count, const char* of, const Where& where) {
+void checkIndex(double number, size_t count, const char* what, const Where& where) {
     if (!(number >= 0 && number < double(count) && number == std::floor(number)))
-        throw Error(where.here(), "expected the index of a vertex of ", of, ", 0 to ", int64_t(count) - 1,
+        throw Error(where.here(), "expected the index of a vertex of ", what, ", 0 to ", int64_t(count) - 1,
                     ", found ", number);
 }
 
@@ -111,7 +111,7 @@ void readUvs(JsonReader& reader, Skin& skin, const Molecule*) {
     const Elements* uvs = elementsOf(reader, "uvs", maxSkinVertices);
     if (!uvs) return;
     const Where where(reader);
-    checkCount(*uvs, skin.vertices.size(), where.at("uvs"));
+    checkCount(*uvs, skin.vertices.size(), where.locate("uvs"));
     for (size_t i = 0; i < uvs->size(); ++i) {
         const Where here = where.in("uvs", i);
         const Elements& pair = numbersOf((*uvs)[i], here);
@@ -130,7 +130,7 @@ void readOffsets(JsonReader& reader, Skin& skin, const Molecule* molecule) {
     const Elements* offsets = elementsOf(reader, "offsets", maxSkinVertices);
     if (!offsets) return;
     const Where where(reader);
-    checkCount(*offsets, skin.vertices.size(), where.at("offsets"));
+    checkCount(*offsets, skin.vertices.size(), where.locate("offsets"));
     for (size_t i = 0; i < offsets->size(); ++i) {
         const Where here = where.in("offsets", i);
         const JsonValue& offset = (*offsets)[i];
@@ -144,7 +144,8 @@ void readOffsets(JsonReader& reader, Skin& skin, const Molecule* molecule) {
 void readSkinTriangles(JsonReader& reader, Skin& skin, const Molecule*) {
     const Elements& triangles = *elementsOf(reader, "triangles", maxSkinTriangles);
     const Where where(reader);
-    if (triangles.empty()) throw Error(where.at("triangles"), "expected at least one triangle, found none");
+    if (triangles.empty())
+        throw Error(where.locate("triangles"), "expected at least one triangle, found none");
     for (size_t i = 0; i < triangles.size(); ++i) {
         const Where here = where.in("triangles", i);
         const Elements& corners = numbersOf(triangles[i], here);
@@ -202,23 +203,23 @@ JsonValue writeSkinTriangles(const Skin& skin, const void*) {
 }  // namespace
 
 const Description& describeSkin() {
-    using Of = Form::Of;
+    using Value = Form::Value;
     const Form::List vertices{.most = maxSkinVertices};
-    static const Description it =
+    static const Description description =
         Describe<Skin>("skin",
                        "A finer mesh that is drawn instead of the triangles and moves with the vertices.")
             .byHand<const Molecule>(
-                "weights", {.of = Of::number, .lists = {vertices, {2, size_t(2 * Skin::mostWeights)}}},
+                "weights", {.value = Value::number, .lists = {vertices, {2, size_t(2 * Skin::mostWeights)}}},
                 {"list of [vertex, weight, ...]",
                  "For each vertex of the skin, at most 262,144: a vertex of the molecule and its weight, up "
                  "to 8 times; the "
                  "weights add up to 1, and may be below 0."},
                 readWeights, writeWeights)
             .needed()
-            .byHand<const Molecule>("uvs", {.of = Of::number, .lists = {vertices, {2, 2}}},
+            .byHand<const Molecule>("uvs", {.value = Value::number, .lists = {vertices, {2, 2}}},
                                     {"list of [u, v]", "Texture coordinates, as many."}, readUvs, writeUvs)
             .usually("all [0, 0]")
-            .byHand<const Molecule>("offsets", {.of = Of::number, .lists = {vertices}},
+            .byHand<const Molecule>("offsets", {.value = Value::number, .lists = {vertices}},
                                     {"list of numbers, m",
                                      "How far each stands off along the molecule's normal, as many; only "
                                      "with `triangles` of the molecule."},
@@ -226,12 +227,12 @@ const Description& describeSkin() {
             .usually("all 0")
             .byHand<const Molecule>(
                 "triangles",
-                {.of = Of::whole, .lists = {{1, maxSkinTriangles}, {3, 3}}, .range = Range::atLeast(0)},
+                {.value = Value::whole, .lists = {{1, maxSkinTriangles}, {3, 3}}, .range = Range::atLeast(0)},
                 {"list of [a, b, c]",
                  "Three vertices of the skin each, anticlockwise seen from the front, 1 to 524,288."},
                 readSkinTriangles, writeSkinTriangles)
             .needed();
-    return it;
+    return description;
 }
 
 void readSkin(JsonReader& root, Molecule& molecule) {

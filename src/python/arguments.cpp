@@ -68,8 +68,8 @@ std::string shown(const py::args& given, const py::kwargs& named, bool method) {
     for (const auto& [key, value] : named)
         all.push_back(concat(std::string(py::str(key)), "=", shown(value)));
     std::string out;
-    for (const std::string& one : all)
-        out += (out.empty() ? "" : ", ") + one;
+    for (const std::string& name : all)
+        out += (out.empty() ? "" : ", ") + name;
     return out;
 }
 

@@ -11,15 +11,15 @@ namespace shoal::python {
 // Factors on the fields' weights or the forces' strengths, by name or number.
 class PyFactors {
   public:
-    enum class Of { fields, forces };
+    enum class Kind { fields, forces };
 
-    PyFactors(PySimulation& simulation, Of of) : simulation_(&simulation), of_(of) {}
+    PyFactors(PySimulation& simulation, Kind kind) : simulation_(&simulation), kind_(kind) {}
 
     size_t size() const { return names().size(); }
     std::vector<std::string> names() const {
         std::vector<std::string> out;
         const Scene& scene = simulation_->scene();
-        if (of_ == Of::fields)
+        if (kind_ == Kind::fields)
             for (const Field& field : scene.fields)
                 out.push_back(field.name);
         else
@@ -69,7 +69,7 @@ class PyFactors {
     std::string text() const { return concat("Factors(", std::string(py::str(py::dict(items()))), ")"); }
 
   private:
-    const char* what() const { return of_ == Of::fields ? "fields" : "forces"; }
+    const char* what() const { return kind_ == Kind::fields ? "fields" : "forces"; }
     size_t indexOf(const py::object& key) const {
         const std::vector<std::string> all = names();
         if (PyIndex_Check(key.ptr())) {
@@ -86,13 +86,13 @@ class PyFactors {
     }
     double valueOf(size_t index) const {
         const Parameters& parameters = simulation_->use().parameters;
-        if (of_ == Of::forces) return parameters.forces[index].factor;
+        if (kind_ == Kind::forces) return parameters.forces[index].factor;
         return index < parameters.fields.size() ? parameters.fields[index] : 1;
     }
     void setValue(size_t index, double value) {
         if (valueOf(index) == value) return;
         Parameters& parameters = simulation_->use().parameters;
-        if (of_ == Of::forces) {
+        if (kind_ == Kind::forces) {
             parameters.forces[index].factor = value;
             return;
         }
@@ -101,7 +101,7 @@ class PyFactors {
     }
 
     PySimulation* simulation_;
-    Of of_;
+    Kind kind_;
 };
 
 }  // namespace shoal::python
@@ -112,7 +112,7 @@ class pybind11::detail::type_caster<shoal::python::PyFactors>
 
 namespace shoal::python {
 
-static Parameters& of(const PyParameters& self) {
+static Parameters& parametersOf(const PyParameters& self) {
     return self.simulation->use().parameters;
 }
 
@@ -130,10 +130,10 @@ void bindParameters(py::module_& m) {
     py::class_<PyParameters> out(m, "Parameters", "What may change between frames.");
     const auto factor = [&](const char* name, double Parameters::*member, double least, const char* doc) {
         out.def_property(
-            name, [member](const PyParameters& self) { return of(self).*member; },
+            name, [member](const PyParameters& self) { return parametersOf(self).*member; },
             [name, member, least](PyParameters& self, double value) {
                 if (finite(name, value) < least) throw Error(name, " is at least ", least, ", not ", value);
-                of(self).*member = value;
+                parametersOf(self).*member = value;
             },
             doc);
     };
@@ -143,30 +143,32 @@ void bindParameters(py::module_& m) {
     factor("stiffness", &Parameters::stiffness, 0, "Factor on every spring.");
     factor("damping", &Parameters::damping, 0, "Factor on every spring's damping.");
     out.def_property(
-        "substeps", [](const PyParameters& self) { return of(self).substeps; },
+        "substeps", [](const PyParameters& self) { return parametersOf(self).substeps; },
         [](PyParameters& self, int value) {
             if (value < 1 || value > maxSubsteps)
                 throw Error("a frame has 1 to ", maxSubsteps, " substeps, not ", value);
-            of(self).substeps = value;
+            parametersOf(self).substeps = value;
         },
         "Of a frame.");
     out.def_property(
-        "frame_time", [](const PyParameters& self) { return of(self).frameTime; },
+        "frame_time", [](const PyParameters& self) { return parametersOf(self).frameTime; },
         [](PyParameters& self, double value) {
             if (!(finite("frame_time", value) >= 1e-5 && value <= 1))
                 throw Error("frame_time is from 1e-5 to 1 s, not ", value);
-            of(self).frameTime = value;
+            parametersOf(self).frameTime = value;
         },
         "s, of a frame.");
     out.def_property(
         "gravity",
         [](const PyParameters& self) {
-            const glm::dvec3& g = of(self).gravity;
+            const glm::dvec3& g = parametersOf(self).gravity;
             return Vector3{g.x, g.y, g.z};
         },
-        [](PyParameters& self, const Vector3& value) { of(self).gravity = finite("gravity", value); },
+        [](PyParameters& self, const Vector3& value) {
+            parametersOf(self).gravity = finite("gravity", value);
+        },
         "m/s^2.");
-    const auto factors = [&](const char* name, PyFactors::Of kind, const char* doc) {
+    const auto factors = [&](const char* name, PyFactors::Kind kind, const char* doc) {
         out.def_property(
             name,
             py::cpp_function([kind](PyParameters& self) { return PyFactors(*self.simulation, kind); },
@@ -176,8 +178,8 @@ void bindParameters(py::module_& m) {
             }),
             doc);
     };
-    factors("fields", PyFactors::Of::fields, "Factors on the fields' weights; set by a list or a dict.");
-    factors("forces", PyFactors::Of::forces, "Factors on the forces' strengths; set by a list or a dict.");
+    factors("fields", PyFactors::Kind::fields, "Factors on the fields' weights; set by a list or a dict.");
+    factors("forces", PyFactors::Kind::forces, "Factors on the forces' strengths; set by a list or a dict.");
 }
 
 }  // namespace shoal::python

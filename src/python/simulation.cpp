@@ -139,9 +139,9 @@ PySimulation::~PySimulation() {
 }
 
 void SignalWatch::look() {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
+    const auto time = std::chrono::steady_clock::now();
+    if (time - last_ < std::chrono::milliseconds(100)) return;
+    last_ = time;
     const py::gil_scoped_acquire locked;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }

@@ -77,7 +77,7 @@ class Heights {
                p.y <= field_->rows - 1 + beyond;
     }
 
-    double at(const glm::dvec2& p) const {
+    double height(const glm::dvec2& p) const {
         return bilinear(*field_, p, [this](int x, int z) { return sample(x, z); });
     }
 
@@ -89,9 +89,9 @@ class Heights {
     // From the heights a cell away, towards the inside at the far border [Latta 2004, section 3.4.2].
     glm::dvec3 threeSampleNormal(const glm::dvec2& p) const {
         const double x = p.x + 1 <= field_->columns - 1 ? 1 : -1, z = p.y + 1 <= field_->rows - 1 ? 1 : -1;
-        const double here = at(p);
-        return glm::normalize(glm::dvec3((here - at(p + glm::dvec2(x, 0))) * x / cell_.x, 1,
-                                         (here - at(p + glm::dvec2(0, z))) * z / cell_.y));
+        const double here = height(p);
+        return glm::normalize(glm::dvec3((here - height(p + glm::dvec2(x, 0))) * x / cell_.x, 1,
+                                         (here - height(p + glm::dvec2(0, z))) * z / cell_.y));
     }
 
   private:
@@ -115,19 +115,19 @@ Surface surface(const HeightFieldCollider& field, const glm::dvec3& x, double be
     const glm::dvec2 p = heights.place(x);
     if (!heights.holds(p, beyond)) return {};
     const glm::dvec3 n = field.sampledNormals ? heights.threeSampleNormal(p) : heights.storedNormal(p);
-    return {n, (x.y - heights.at(p)) * n.y};
+    return {n, (x.y - heights.height(p)) * n.y};
 }
 
 // The least y of a unit normal: a slope is at most the steepest step between neighbours, along both axes.
 double leastUp(const HeightFieldCollider& field, const glm::dvec2& cell) {
     double steepX = 0, steepZ = 0;
-    const auto at = [&](int x, int z) {
+    const auto height = [&](int x, int z) {
         return double(field.heights[size_t(z) * size_t(field.columns) + size_t(x)]);
     };
     for (int z = 0; z < field.rows; ++z) {
         for (int x = 0; x < field.columns; ++x) {
-            if (x > 0) steepX = std::max(steepX, std::abs(at(x, z) - at(x - 1, z)) / cell.x);
-            if (z > 0) steepZ = std::max(steepZ, std::abs(at(x, z) - at(x, z - 1)) / cell.y);
+            if (x > 0) steepX = std::max(steepX, std::abs(height(x, z) - height(x - 1, z)) / cell.x);
+            if (z > 0) steepZ = std::max(steepZ, std::abs(height(x, z) - height(x, z - 1)) / cell.y);
         }
     }
     return 1 / std::sqrt(1 + steepX * steepX + steepZ * steepZ);
@@ -162,7 +162,7 @@ struct FactsOf {
 }  // namespace
 
 Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x) {
-    return std::visit([&](const auto& one) { return surface(one, x, 0); }, shape);
+    return std::visit([&](const auto& kind) { return surface(kind, x, 0); }, shape);
 }
 
 RestSurfaces::RestSurfaces(const std::vector<Collider>& colliders) : colliders_(&colliders) {
@@ -170,21 +170,21 @@ RestSurfaces::RestSurfaces(const std::vector<Collider>& colliders) : colliders_(
         facts_.push_back(std::visit(FactsOf{collider.thickness}, *collider.shape));
 }
 
-Surface RestSurfaces::at(size_t i, const glm::dvec3& x) const {
+Surface RestSurfaces::surfaceOf(size_t i, const glm::dvec3& x) const {
     Surface out = surfaceAt(*collider(i).shape, x);
     out.distance -= collider(i).thickness;
     return out;
 }
 
 Surface RestSurfaces::under(size_t i, const glm::dvec3& x) const {
-    Surface out = std::visit([&](const auto& one) { return surface(one, x, 0.5); }, *collider(i).shape);
+    Surface out = std::visit([&](const auto& kind) { return surface(kind, x, 0.5); }, *collider(i).shape);
     out.distance -= collider(i).thickness;
     return out;
 }
 
 bool RestSurfaces::clear(size_t i, const glm::dvec3& x, double reach) const {
     if (x.y - reach > facts_[i].top) return true;
-    return facts_[i].steepest > 0 && at(i, x).distance > reach * facts_[i].steepest;
+    return facts_[i].steepest > 0 && surfaceOf(i, x).distance > reach * facts_[i].steepest;
 }
 
 RestSurfaces::Following RestSurfaces::following(size_t i, const Surface& surface, const glm::dvec3& x,
@@ -200,7 +200,7 @@ RestSurfaces::Following RestSurfaces::following(size_t i, const Surface& surface
     }
     if (exact(i)) {
         const double time = nudge / speed;
-        const glm::dvec3 turn = at(i, x + v * time).normal - at(i, x - v * time).normal;
+        const glm::dvec3 turn = surfaceOf(i, x + v * time).normal - surfaceOf(i, x - v * time).normal;
         return {0, glm::dot(v, turn) / (2 * time)};
     }
     const double shift = shiftAlong(i, surface, x, v);

@@ -37,9 +37,9 @@ class RestSurfaces {
 
     size_t count() const { return colliders_->size(); }
     const Collider& collider(size_t i) const { return (*colliders_)[i]; }
-    Surface at(size_t i, const glm::dvec3& x) const;
-    // As at(), for a vertex that is held: the surface goes on a little past the border of a height field, so
-    // that the motion is smooth until the vertex leaves it.
+    Surface surfaceOf(size_t i, const glm::dvec3& x) const;
+    // As surfaceOf(), for a vertex that is held: the surface goes on a little past the border of a height
+    // field, so that the motion is smooth until the vertex leaves it.
     Surface under(size_t i, const glm::dvec3& x) const;
 
     // m: a way no longer than this cannot pass through the collider unnoticed between its ends.

@@ -38,7 +38,7 @@ double slack(const glm::dvec3& x) {
 // The cubic through both ends of a step with their velocities.
 struct Path {
     glm::dvec3 x0, v0, x1, v1;  // v in m per step
-    glm::dvec3 at(double s) const {
+    glm::dvec3 position(double s) const {
         const double r = 1 - s;
         return x0 * (r * r * (1 + 2 * s)) + x1 * (s * s * (1 + 2 * r)) + v0 * (s * r * r) - v1 * (s * s * r);
     }
@@ -142,7 +142,7 @@ class ContactIntegrator {
         accept();
         for (size_t i = 0; i < state_.position.size(); ++i) {
             for (size_t c = 0; c < surfaces_.count() && !equations_.pinned(i); ++c) {
-                const Surface s = surfaces_.at(c, state_.position[i]);
+                const Surface s = surfaces_.surfaceOf(c, state_.position[i]);
                 if (s.distance >= 0) continue;
                 state_.position[i] -= s.distance * s.normal;
                 state_.velocity[i] -= std::min(glm::dot(state_.velocity[i], s.normal), 0.0) * s.normal;
@@ -199,8 +199,8 @@ class ContactIntegrator {
     // The first share of the path seen inside a collider; 2 when it never is.
     double firstInside(size_t c, const Path& path) const {
         const auto inside = [&](double s) {
-            const glm::dvec3 x = path.at(s);
-            return surfaces_.at(c, x).distance < -slack(x);
+            const glm::dvec3 x = path.position(s);
+            return surfaces_.surfaceOf(c, x).distance < -slack(x);
         };
         const int pieces = int(std::clamp(std::ceil(path.length() / surfaces_.feature(c)), 1.0, 256.0));
         for (int k = 1; k <= pieces; ++k) {
@@ -214,7 +214,7 @@ class ContactIntegrator {
     // Where the distance has its minimum between two shares; 0 when it has none.
     double lowestShare(size_t c, const Path& path, double low, double high) const {
         const double tiny = 1e-4 * (high - low);
-        const auto distance = [&](double s) { return surfaces_.at(c, path.at(s)).distance; };
+        const auto distance = [&](double s) { return surfaces_.surfaceOf(c, path.position(s)).distance; };
         if (distance(low + tiny) >= distance(low) || distance(high - tiny) >= distance(high)) return 0;
         constexpr double golden = 0.6180339887498949;
         for (int i = 0; i < 40; ++i) {
@@ -234,7 +234,7 @@ class ContactIntegrator {
         const glm::dvec3 &x = state.position[i], &v = state.velocity[i];
         switch (event.kind) {
         case Change::impact:
-            return surfaces_.at(event.collider, x).distance;
+            return surfaces_.surfaceOf(event.collider, x).distance;
         case Change::release:
             return held_.pressure(i, event.collider, x, v, free_[i]);
         case Change::slip:
@@ -273,16 +273,16 @@ class ContactIntegrator {
             const double secant = low + (high - low) * atLow / (atLow - atHigh);
             const bool halve = i % 4 == 3 || atLow > nothing || !(secant > low) || !(secant < high);
             const double time = halve ? (low + high) / 2 : secant;
-            const double now = valueAt(event, time);
+            const double value = valueAt(event, time);
             // what a straight line to the other end says is left
-            const double other = now < 0 ? atLow : -atHigh;
-            const bool near = other < nothing && std::abs(now) * (high - low) < close * other;
-            if (now < 0) {
-                high = time, atHigh = now;
+            const double other = value < 0 ? atLow : -atHigh;
+            const bool near = other < nothing && std::abs(value) * (high - low) < close * other;
+            if (value < 0) {
+                high = time, atHigh = value;
                 if (side > 0) atLow /= 2;
                 side = 1;
             } else {
-                low = time, atLow = now;
+                low = time, atLow = value;
                 if (side < 0) atHigh /= 2;
                 side = -1;
             }
@@ -322,7 +322,7 @@ class ContactIntegrator {
     }
 
     void onto(size_t i, size_t collider) {
-        const Surface surface = surfaces_.at(collider, state_.position[i]);
+        const Surface surface = surfaces_.surfaceOf(collider, state_.position[i]);
         state_.position[i] -= surface.distance * surface.normal;
     }
 
@@ -334,7 +334,7 @@ class ContactIntegrator {
         for (int round = 0; round < 20 && struck; ++round) {
             struck = false;
             for (size_t c = 0; c < surfaces_.count(); ++c) {
-                const Surface s = surfaces_.at(c, x);
+                const Surface s = surfaces_.surfaceOf(c, x);
                 if (s.distance > 10 * slack(x) || glm::dot(v, s.normal) >= -restSpeed) continue;
                 v = afterImpact(v, s.normal, surfaces_.collider(c).restitution,
                                 surfaces_.collider(c).friction);
@@ -351,7 +351,7 @@ class ContactIntegrator {
         glm::dvec3& v = state_.velocity[i];
         held_.releaseAll(i);
         for (size_t c = 0; c < surfaces_.count(); ++c) {
-            const Surface s = surfaces_.at(c, x);
+            const Surface s = surfaces_.surfaceOf(c, x);
             if (std::abs(s.distance) > 10 * slack(x) || glm::dot(v, s.normal) > slow(i, c, s)) continue;
             v -= glm::dot(v, s.normal) * s.normal;
             held_.hold(i, c);
@@ -373,7 +373,7 @@ class ContactIntegrator {
     // At the start: onto the surfaces that it is inside of, as an impact if it moves further in.
     void putOutside(size_t i) {
         for (size_t c = 0; c < surfaces_.count(); ++c) {
-            const double distance = surfaces_.at(c, state_.position[i]).distance,
+            const double distance = surfaces_.surfaceOf(c, state_.position[i]).distance,
                          near = slack(state_.position[i]);
             if (distance < -near) onto(i, c);
             if (distance < near) strike(i);

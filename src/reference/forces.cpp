@@ -41,8 +41,8 @@ template <typename Visit>
 void forEach(const std::vector<Force>& forces, double time, Visit visit) {
     for (const Force& force : forces) {
         if (force.mouse) continue;
-        const ForceMoment now = momentOf(force.path, time);
-        std::visit([&](const auto& kind) { visit(kind.times(now.factor), now.offset); }, *force.shape);
+        const ForceMoment moment = momentOf(force.path, time);
+        std::visit([&](const auto& kind) { visit(kind.times(moment.factor), moment.offset); }, *force.shape);
     }
 }
 

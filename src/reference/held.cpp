@@ -129,7 +129,7 @@ double Held::pressure(size_t vertex, size_t collider, const glm::dvec3& x, const
     const Contacts& c = contacts_[vertex];
     const Forces f = forces(c, x, v, free);
     for (size_t j = 0; j < c.count; ++j) {
-        if (c.collider[j] == collider && surfaces_->at(collider, x).exists())
+        if (c.collider[j] == collider && surfaces_->surfaceOf(collider, x).exists())
             return c.grazes ? f.shift[j] + restSpeed : f.pressure[j];
     }
     return -1;

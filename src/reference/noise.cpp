@@ -123,9 +123,9 @@ glm::dvec3 readTile(const NoiseTile& tile, const glm::dvec3& place) {
     glm::ivec3 low;
     glm::dvec3 share;
     for (int d = 0; d < 3; ++d) {
-        const double at = (place[d] - std::floor(place[d])) * tile.texels[d] - 0.5;
-        low[d] = int(std::floor(at));
-        share[d] = at - low[d];
+        const double coordinate = (place[d] - std::floor(place[d])) * tile.texels[d] - 0.5;
+        low[d] = int(std::floor(coordinate));
+        share[d] = coordinate - low[d];
     }
     glm::dvec3 sum(0);
     for (int corner = 0; corner < 8; ++corner) {

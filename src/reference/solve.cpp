@@ -184,13 +184,13 @@ class Halving {
 
     ContactRun next(int64_t steps) {
         const double before = deadline_.passed();
-        ContactRun one = run(problem_, start_, duration_, steps, deadline_);
+        ContactRun attempt = run(problem_, start_, duration_, steps, deadline_);
         secondsOfRun_ = deadline_.passed() - before;
-        if (steps == firstSteps(problem_, duration_) || finite(one.state)) {
-            out_.state = one.state;
+        if (steps == firstSteps(problem_, duration_) || finite(attempt.state)) {
+            out_.state = attempt.state;
             out_.step = duration_ / double(steps);
         }
-        return one;
+        return attempt;
     }
 
     const Problem& problem_;

@@ -30,11 +30,11 @@ Progress::~Progress() {
 
 void Progress::reach(int done) {
     if (done <= done_) return;
-    const Clock::time_point now = Clock::now();
-    if (done_ == 0) firstDone_ = now;
+    const Clock::time_point current = Clock::now();
+    if (done_ == 0) firstDone_ = current;
     done_ = std::min(done, total_);
-    if (terminal_ && (done_ == total_ || now - printed_ > std::chrono::milliseconds(100))) {
-        printed_ = now;
+    if (terminal_ && (done_ == total_ || current - printed_ > std::chrono::milliseconds(100))) {
+        printed_ = current;
         print();
     }
     const int tenth = done_ * 10 / total_;
@@ -51,11 +51,11 @@ void Progress::rename(std::string what) {
 }
 
 void Progress::print() {
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const Clock::time_point current = Clock::now();
+    const double seconds = std::chrono::duration<double>(current - start_).count();
     // the first step has what is done once: drivers compile in it
     const double perStep =
-        done_ > 1 ? std::chrono::duration<double>(now - firstDone_).count() / (done_ - 1) : seconds;
+        done_ > 1 ? std::chrono::duration<double>(current - firstDone_).count() / (done_ - 1) : seconds;
     const double left = perStep * (total_ - done_);
     if (!terminal_) {
         const std::string time = left < 1 ? "less than 1 s" : concat("about ", roughly(left));
@@ -77,13 +77,13 @@ FieldBaking FieldWatch::baking() {
 }
 
 void FieldWatch::show(double share) {
-    const int now = int(share * 100);
-    if (now < last_) bar_.reset();  // another field, or the same finer
-    last_ = now;
+    const int percent = int(share * 100);
+    if (percent < last_) bar_.reset();  // another field, or the same finer
+    last_ = percent;
     const auto waited = std::chrono::steady_clock::now() - start_;
     if (!bar_ && waited < std::chrono::seconds(1)) return;
     if (!bar_) bar_.emplace("baking a distance field", 100);
-    bar_->reach(now);
+    bar_->reach(percent);
 }
 
 namespace {
@@ -123,11 +123,12 @@ void BusyWatch::watch() {
     Clock::time_point since;
     std::unique_lock lock(guard_);
     while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; })) {
-        const std::string now = whatGoesOn();
-        if (now != last) since = Clock::now();
-        if (!now.empty() && now == last && Clock::now() - since >= patience_ && told.insert(now).second)
-            tell_(now);
-        last = now;
+        const std::string current = whatGoesOn();
+        if (current != last) since = Clock::now();
+        if (!current.empty() && current == last && Clock::now() - since >= patience_ &&
+            told.insert(current).second)
+            tell_(current);
+        last = current;
     }
 }
 

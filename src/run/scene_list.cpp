@@ -36,11 +36,11 @@ static std::vector<std::string> filesBelow(const std::string& folder) {
     const auto skip = fs::directory_options::skip_permission_denied;
     constexpr int mostFiles = 100000;  // a folder such as / is not worth a search without end
     int seen = 0;
-    for (fs::recursive_directory_iterator at(folder, skip, code), end; !code && at != end;
-         at.increment(code)) {
+    for (fs::recursive_directory_iterator entry(folder, skip, code), end; !code && entry != end;
+         entry.increment(code)) {
         if (++seen > mostFiles) break;
-        const std::string name = at->path().filename().string();
-        if (name.size() > ending.size() && name.ends_with(ending)) out.push_back(at->path().string());
+        const std::string name = entry->path().filename().string();
+        if (name.size() > ending.size() && name.ends_with(ending)) out.push_back(entry->path().string());
     }
     std::sort(out.begin(), out.end());
     return out;

@@ -49,13 +49,13 @@ void onSignal(int signal) {
 void catchSignals() {
     onTerminal = ::isatty(STDERR_FILENO) != 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction now {};
-        ::sigaction(signal, nullptr, &now);
-        if (now.sa_handler == SIG_IGN) continue;
-        now = {};
-        now.sa_handler = onSignal;
-        now.sa_flags = SA_RESTART;
-        ::sigaction(signal, &now, nullptr);
+        struct sigaction action {};
+        ::sigaction(signal, nullptr, &action);
+        if (action.sa_handler == SIG_IGN) continue;
+        action = {};
+        action.sa_handler = onSignal;
+        action.sa_flags = SA_RESTART;
+        ::sigaction(signal, &action, nullptr);
     }
 }
 

@@ -23,11 +23,11 @@ template const DistanceFieldCollider* kindOf(const ColliderShape&);
 
 const Description& describe(const PlaneCollider*) {
     using C = PlaneCollider;
-    static const Description it =
+    static const Description description =
         Describe<C>("plane", "A plane, solid behind.")
             .key("point", &C::point, {"m", "A point of the plane."})
             .direction("normal", &C::normal, {"", "The direction of the free side."});
-    return it;
+    return description;
 }
 
 GlslCall PlaneCollider::call() const {
@@ -36,12 +36,12 @@ GlslCall PlaneCollider::call() const {
 
 const Description& describe(const SphereCollider*) {
     using C = SphereCollider;
-    static const Description it = Describe<C>("sphere", "A sphere.")
-                                      .key("center", &C::center, {"m", "Its centre."})
-                                      .needed()
-                                      .key("radius", &C::radius, {"m", "Its radius.", aboveZero()})
-                                      .needed();
-    return it;
+    static const Description description = Describe<C>("sphere", "A sphere.")
+                                               .key("center", &C::center, {"m", "Its centre."})
+                                               .needed()
+                                               .key("radius", &C::radius, {"m", "Its radius.", aboveZero()})
+                                               .needed();
+    return description;
 }
 
 GlslCall SphereCollider::call() const {
@@ -50,13 +50,13 @@ GlslCall SphereCollider::call() const {
 
 const Description& describe(const BoxCollider*) {
     using C = BoxCollider;
-    static const Description it = Describe<C>("box", "A box.")
-                                      .key("center", &C::center, {"m", "Its centre."})
-                                      .needed()
-                                      .key("size", &C::size, {"m", "Its whole edges.", aboveZero()})
-                                      .needed()
-                                      .rotation("rotation", &C::rotation, {"", "How it is turned."});
-    return it;
+    static const Description description = Describe<C>("box", "A box.")
+                                               .key("center", &C::center, {"m", "Its centre."})
+                                               .needed()
+                                               .key("size", &C::size, {"m", "Its whole edges.", aboveZero()})
+                                               .needed()
+                                               .rotation("rotation", &C::rotation, {"", "How it is turned."});
+    return description;
 }
 
 GlslCall BoxCollider::call() const {
@@ -65,7 +65,7 @@ GlslCall BoxCollider::call() const {
 
 const Description& describe(const CapsuleCollider*) {
     using C = CapsuleCollider;
-    static const Description it =
+    static const Description description =
         Describe<C>("capsule", "All within a radius of a line between two points.")
             .key("from", &C::from, {"m", "One end of the line."})
             .needed()
@@ -73,7 +73,7 @@ const Description& describe(const CapsuleCollider*) {
             .needed()
             .key("radius", &C::radius, {"m", "The radius.", aboveZero()})
             .needed();
-    return it;
+    return description;
 }
 
 // Returns a unit vector across an axis of any length.
@@ -165,9 +165,9 @@ const Description& describe(const Collider*) {
     using C = Collider;
     static const auto rule = [](const C& collider, const Where& where) {
         if (where.given("surface") && collider.surface.empty())
-            throw Error(where.at("surface"), "expected the name of a surface, found an empty string");
+            throw Error(where.locate("surface"), "expected the name of a surface, found an empty string");
     };
-    static const Description it =
+    static const Description description =
         Describe<C>("collider", "What molecules collide with.")
             .key("name", &C::name, {"", "Its name in messages and in the panel; no two have the same."})
             .key("thickness", &C::thickness,
@@ -187,7 +187,7 @@ const Description& describe(const Collider*) {
             .color("color", &C::color, {"", "Its colour."})
             .key("path", &C::path, {"", "How it moves; without a path it stands still."})
             .rule(rule, R"({"properties": {"surface": {"minLength": 1}}})");
-    return it;
+    return description;
 }
 
 const Description& describe(const SurfaceRule*) {
@@ -196,7 +196,7 @@ const Description& describe(const SurfaceRule*) {
         std::vector<std::string> between;
         r.need("between", between);
         if (between.size() != 2)
-            throw Error(r.at("between"),
+            throw Error(r.locate("between"),
                         concat("expected the names of two surfaces, found ", between.size()));
         pair.a = between[0];
         pair.b = between[1];
@@ -205,7 +205,7 @@ const Description& describe(const SurfaceRule*) {
         if (!pair.restitution && !pair.friction)
             throw Error(where.here(), "expected a \"restitution\" or a \"friction\" between the two");
     };
-    static const Description it =
+    static const Description description =
         Describe<S>("surfacePair",
                     "Restitution and friction between two surfaces, in place of a collider's own.")
             .byHand("between", {.lists = {{2, 2}}, .notEmpty = true},
@@ -215,7 +215,7 @@ const Description& describe(const SurfaceRule*) {
                  {"", "The speed after a bounce, as a share of that before.", Range::between(0, 1)})
             .key("friction", &S::friction, {"", "Coulomb's coefficient.", Range::atLeast(0)})
             .rule(rule, R"({"anyOf": [{"required": ["restitution"]}, {"required": ["friction"]}]})");
-    return it;
+    return description;
 }
 
 size_t kindIndex(const ColliderShape& shape) {

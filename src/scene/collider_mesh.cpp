@@ -65,8 +65,8 @@ ColliderMesh meshOf(const BoxCollider& box) {
             u[(axis + 1) % 3] = side;  // so that the corners go round anticlockwise
             v[(axis + 2) % 3] = 1;
             const uint32_t first = uint32_t(out.positions.size());
-            for (const glm::dvec2 at : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-                const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
+            for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                const glm::dvec3 place = 0.5 * box.size * (n + corner.x * u + corner.y * v);
                 add(out, {glm::vec3(turn * place), glm::vec3(turn * n)});
             }
             out.corners.insert(out.corners.end(), {first, first + 1, first + 2, first, first + 2, first + 3});

@@ -15,20 +15,21 @@ static bool same(const Pose& a, const Pose& b) {
 }
 
 const Description& describe(const Pose*) {
-    static const Description it = Describe<Pose>("pose", "A position and a rotation.")
-                                      .key("position", &Pose::position, {"m", "Where the frame is."})
-                                      .rotation("rotation", &Pose::rotation, {"", "How it is turned."});
-    return it;
+    static const Description description =
+        Describe<Pose>("pose", "A position and a rotation.")
+            .key("position", &Pose::position, {"m", "Where the frame is."})
+            .rotation("rotation", &Pose::rotation, {"", "How it is turned."});
+    return description;
 }
 
 const Description& describe(const ColliderPath::Keyframe*) {
     using Keyframe = ColliderPath::Keyframe;
-    static const Description it =
+    static const Description description =
         Describe<Keyframe>("keyframe", "A moment of a path.")
             .key("time", &Keyframe::time, {"s", "The time, after that of the keyframe before."})
             .needed()
             .keysOf(&Keyframe::pose);
-    return it;
+    return description;
 }
 
 const Description& describe(const ColliderPath*) {
@@ -42,10 +43,10 @@ const Description& describe(const ColliderPath*) {
     static const auto rule = [](const ColliderPath& path, const Where& where) {
         checkKeyframes(path.keyframes, where);
         if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
-            throw Error(where.at("keyframes"),
+            throw Error(where.locate("keyframes"),
                         "expected the last pose to be the first again where the path repeats");
     };
-    static const Description it =
+    static const Description description =
         Describe<ColliderPath>("path", "Poses over time of the frame in which a shape is given.")
             .word(
                 "end", &ColliderPath::repeats, {"hold", "repeat"},
@@ -58,7 +59,7 @@ const Description& describe(const ColliderPath*) {
             .needed()
             .derive(derive)
             .rule(rule, R"({"properties": {"keyframes": {"minItems": 2}}})");
-    return it;
+    return description;
 }
 
 static double angleBetween(const glm::dquat& a, const glm::dquat& b) {

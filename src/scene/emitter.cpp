@@ -35,17 +35,17 @@ void follow(Emitter& emitter, const Where& where) {
     if (emitter.from != From::death && !where.given("rate") && emitter.bursts.empty())
         throw Error(where.here(), "expected a \"rate\" or \"bursts\": this emitter emits nothing");
     if (where.given("inherit") && !isCarried(emitter))
-        throw Error(where.at("inherit"),
+        throw Error(where.locate("inherit"),
                     "nothing to inherit from: only an emitter with a \"path\", or from "
                     "\"death\", has a velocity of its own");
 }
 
 void checkEmitter(const Emitter& emitter, const Where& where) {
     if (emitter.from != From::death && !(emitter.end > emitter.begin))
-        throw Error(where.at("until"),
+        throw Error(where.locate("until"),
                     concat("expected a time after \"begin\" (", emitter.begin, " s), found ", emitter.end));
     if (emitter.along == Emitter::Along::outward && (emitter.from == From::line || emitter.from == From::box))
-        throw Error(where.at("along"), "nothing is outward of a line or a box: expected a \"direction\"");
+        throw Error(where.locate("along"), "nothing is outward of a line or a box: expected a \"direction\"");
 }
 
 // Leaves "along" out where the reader would take the same without it.
@@ -107,7 +107,7 @@ EmitterPlace placeOf(const Emitter& emitter, const std::vector<Model>& models) {
 }
 
 const Description& describe(const Burst*) {
-    static const Description it =
+    static const Description description =
         Describe<Burst>("burst", "Many that are born at one moment.")
             .key("time", &Burst::time, {"s", "When they are born.", Range::atLeast(0), {0, 60}})
             .key("count", &Burst::count,
@@ -119,12 +119,12 @@ const Description& describe(const Burst*) {
                   aboveZero(),
                   {0, 60}})
             .unlessZero();
-    return it;
+    return description;
 }
 
 const Description& describe(const Emitter*) {
     using E = Emitter;
-    static const Description it =
+    static const Description description =
         Describe<E>("emitter", "What molecules or particles of the group are born from.")
             .location(&E::location)
             .key("name", &E::name, {"", "Its name in messages and in the panel."})
@@ -202,7 +202,7 @@ const Description& describe(const Emitter*) {
             .derive(follow)
             .rule(checkEmitter, R"({"anyOf": [{"required": ["rate"]}, {"required": ["bursts"]},
                                               {"properties": {"from": {"const": "death"}}}]})");
-    return it;
+    return description;
 }
 
 // The keys of "dies".
@@ -212,7 +212,7 @@ static const Description& describeEnds() {
         if (!life.within && !life.afterContact)
             throw Error(where.here(), "expected \"outside\" a box or \"afterContact\"");
     };
-    static const Description it =
+    static const Description description =
         Describe<L>("dies", "What ends a life before its span does.")
             .box("outside", &L::within, {"m", "What is outside this box dies."})
             .key("afterContact", &L::afterContact,
@@ -220,7 +220,7 @@ static const Description& describeEnds() {
             .derive(needsOne)
             .rule([](const L&, const Where&) {},
                   R"({"anyOf": [{"required": ["outside"]}, {"required": ["afterContact"]}]})");
-    return it;
+    return description;
 }
 
 const Description& describe(const Lifecycle*) {
@@ -228,7 +228,7 @@ const Description& describe(const Lifecycle*) {
     static const auto cut = [](L& life, const Where&) {
         life.life = glm::min(life.life, glm::dvec2(longestLife));
     };
-    static const Description it =
+    static const Description description =
         Describe<L>("life",
                     "Birth and death: the group has places, which what is born takes and what dies "
                     "leaves.")
@@ -259,7 +259,7 @@ const Description& describe(const Lifecycle*) {
             .usually(
                 "what rates, bursts and spans keep alive, and a twentieth more; required where nothing tells")
             .derive(cut);
-    return it;
+    return description;
 }
 
 double mostAlive(int count, const Lifecycle& life) {

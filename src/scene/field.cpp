@@ -14,11 +14,11 @@ template class Boxed<FieldShape>;
 constexpr double turn = 2 * std::numbers::pi;
 
 const Description& describe(const UniformField*) {
-    static const Description it =
+    static const Description description =
         Describe<UniformField>("uniform", "The same velocity everywhere, and at all times.")
             .key("velocity", &UniformField::velocity, {"m/s", "The velocity."})
             .needed();
-    return it;
+    return description;
 }
 
 GlslCalls UniformField::calls() const {
@@ -27,7 +27,7 @@ GlslCalls UniformField::calls() const {
 
 const Description& describe(const OscillatingField*) {
     using F = OscillatingField;
-    static const Description it =
+    static const Description description =
         Describe<F>("oscillating",
                     "The same everywhere, to and fro: velocity · sin(2π · frequency · t + phase).")
             .key("velocity", &F::velocity, {"m/s", "The velocity at the peak."})
@@ -35,7 +35,7 @@ const Description& describe(const OscillatingField*) {
             .key("frequency", &F::frequency, {"Hz", "How often it goes to and fro.", Range::atLeast(0)})
             .needed()
             .key("phase", &F::phase, {"rad", "The phase at the start."});
-    return it;
+    return description;
 }
 
 GlslCalls OscillatingField::calls() const {
@@ -52,7 +52,7 @@ static const Says saysNoise = {
 
 const Description& describe(const GustField*) {
     using F = GustField;
-    static const Description it =
+    static const Description description =
         Describe<F>(
             "gust",
             "Fronts of stronger and weaker wind that travel along a direction: direction · speed · (1 + "
@@ -66,7 +66,7 @@ const Description& describe(const GustField*) {
             .key("frontSpeed", &F::frontSpeed, {"m/s", "The speed of the fronts along the direction."})
             .key("seed", &F::seed, {"", "The seed of the noise."})
             .word("noise", &F::noise, noiseForms, saysNoise);
-    return it;
+    return description;
 }
 
 GlslCalls GustField::calls() const {
@@ -113,7 +113,7 @@ static void readGradient(JsonReader& r, ShearField& field, void*) {
                 for (const JsonValue& entry : row.items)
                     if (entry.kind == JsonValue::Kind::number) numbers.push_back(entry.number);
     if (numbers.size() != 9 || rows->items.size() != 3)
-        throw Error(r.at("gradient"), "expected three rows of three numbers");
+        throw Error(r.locate("gradient"), "expected three rows of three numbers");
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
             field.gradient[column][row] = numbers[size_t(3 * row + column)];
@@ -123,17 +123,17 @@ const Description& describe(const ShearField*) {
     using F = ShearField;
     static const auto rule = [](const F& field, const Where& where) {
         for (int i = 0; i < 9; ++i)
-            needWithin(where.at("gradient"), field.gradient[i / 3][i % 3], {});
+            needWithin(where.locate("gradient"), field.gradient[i / 3][i % 3], {});
     };
-    static const Description it =
+    static const Description description =
         Describe<F>("shear", "A velocity that grows evenly: velocity + gradient · (x − origin).")
-            .byHand("gradient", {.of = Form::Of::number, .lists = {{3, 3}, {3, 3}}},
+            .byHand("gradient", {.value = Form::Value::number, .lists = {{3, 3}, {3, 3}}},
                     {"three rows of three numbers, 1/s", "The gradient of the velocity."}, readGradient)
             .needed()
             .key("origin", &F::origin, {"m", "Where the velocity is as given."})
             .key("velocity", &F::velocity, {"m/s", "The velocity at the origin."})
             .rule(rule);
-    return it;
+    return description;
 }
 
 GlslCalls ShearField::calls() const {
@@ -148,7 +148,7 @@ GlslCalls ShearField::calls() const {
 
 const Description& describe(const VortexField*) {
     using F = VortexField;
-    static const Description it =
+    static const Description description =
         Describe<F>(
             "vortex",
             "Turns about an axis, anticlockwise seen from its tip: with r the distance from it and R the "
@@ -158,7 +158,7 @@ const Description& describe(const VortexField*) {
             .key("speed", &F::speed, {"m/s", "The speed at the radius."})
             .key("radius", &F::radius, {"m", "The radius of the core.", aboveZero()})
             .key("lift", &F::lift, {"m/s", "The speed along the axis, on it."});
-    return it;
+    return description;
 }
 
 GlslCalls VortexField::calls() const {
@@ -172,7 +172,7 @@ GlslCalls VortexField::calls() const {
 
 const Description& describe(const AbcField*) {
     using F = AbcField;
-    static const Description it =
+    static const Description description =
         Describe<F>("abc",
                     "Arnold, Beltrami and Childress: (a sin kz + c cos ky, b sin kx + a cos kz, "
                     "c sin ky + b cos kx), with k = 2π / wavelength.")
@@ -181,7 +181,7 @@ const Description& describe(const AbcField*) {
             .key("b", &F::b, {"m/s", "The second amplitude."})
             .key("c", &F::c, {"m/s", "The third amplitude."})
             .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});
-    return it;
+    return description;
 }
 
 GlslCalls AbcField::calls() const {
@@ -190,14 +190,14 @@ GlslCalls AbcField::calls() const {
 
 const Description& describe(const TaylorGreenField*) {
     using F = TaylorGreenField;
-    static const Description it =
+    static const Description description =
         Describe<F>("taylorGreen",
                     "Taylor and Green: speed · (cos kx sin ky, −sin kx cos ky, 0) cos kz, with "
                     "k = 2π / wavelength.")
             .key("origin", &F::origin, {"m", "Where the phases are 0."})
             .key("speed", &F::speed, {"m/s", "The largest speed."})
             .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});
-    return it;
+    return description;
 }
 
 GlslCalls TaylorGreenField::calls() const {
@@ -206,7 +206,7 @@ GlslCalls TaylorGreenField::calls() const {
 
 const Description& describe(const CurlNoiseField*) {
     using F = CurlNoiseField;
-    static const Description it =
+    static const Description description =
         Describe<F>("curlNoise", "The curl of a noise in space and time: free of divergence, without a mean.")
             .key("speed", &F::speed, {"m/s", "About the RMS speed of one octave.", Range::atLeast(0)})
             .key("length", &F::length, {"m", "The size of the largest eddies.", aboveZero()})
@@ -217,7 +217,7 @@ const Description& describe(const CurlNoiseField*) {
                  Range::between(1, 4)})
             .key("seed", &F::seed, {"", "The seed of the noise."})
             .word("noise", &F::noise, noiseForms, saysNoise);
-    return it;
+    return description;
 }
 
 GlslCalls CurlNoiseField::calls() const {
@@ -279,17 +279,17 @@ GlslCalls GridField::calls() const {
 const Description& describe(const WaveTrain*) {
     static const auto rule = [](const WaveTrain& train, const Where& where) {
         if (train.direction.x == 0 && train.direction.z == 0)
-            throw Error(where.at("direction"),
+            throw Error(where.locate("direction"),
                         "expected a direction with a part along x or z: waves travel level");
         const double most = train.wavelength / (2 * std::numbers::pi);
         if (train.amplitude >= most)
-            throw Error(where.at("amplitude"), "expected less than ", most, " m: crests of ",
+            throw Error(where.locate("amplitude"), "expected less than ", most, " m: crests of ",
                         train.wavelength, " m length would curl over, found ", train.amplitude);
     };
     static const auto derive = [](WaveTrain& train, const Where&) {
         if (train.direction.x != 0 || train.direction.z != 0) train.direction.y = 0;
     };
-    static const Description it =
+    static const Description description =
         Describe<WaveTrain>("train", "One train of waves.")
             .key("direction", &WaveTrain::direction,
                  {"", "The direction of travel, of which only x and z count."})
@@ -303,7 +303,7 @@ const Description& describe(const WaveTrain*) {
             .key("phase", &WaveTrain::phase, {"rad", "The phase at the origin at time 0."})
             .derive(derive)
             .rule(rule);
-    return it;
+    return description;
 }
 
 const Description& describe(const WavesField*) {
@@ -312,13 +312,13 @@ const Description& describe(const WavesField*) {
         constexpr size_t most = 32;
         const size_t count = field.trains.size();
         if (count == 0 || count > most)
-            throw Error(where.at("trains"), "expected 1 to ", most, " trains, found ", count);
+            throw Error(where.locate("trains"), "expected 1 to ", most, " trains, found ", count);
         for (size_t i = 0; field.depth && i < count; ++i)
             if (field.trains[i].amplitude >= *field.depth)
-                throw Error(where.in("trains", i).at("amplitude"), "expected less than the depth of ",
+                throw Error(where.in("trains", i).locate("amplitude"), "expected less than the depth of ",
                             *field.depth, " m, found ", field.trains[i].amplitude);
     };
-    static const Description it =
+    static const Description description =
         Describe<F>("waves", "The water under a sum of waves [Fournier 1986].")
             .key("origin", &F::origin, {"m", "A point of the still surface."})
             .key("depth", &F::depth,
@@ -328,7 +328,7 @@ const Description& describe(const WavesField*) {
             .key("trains", &F::trains, {"", "The trains of waves, 1 to 32, which add up."})
             .needed()
             .rule(rule, R"({"properties": {"trains": {"minItems": 1, "maxItems": 32}}})");
-    return it;
+    return description;
 }
 
 GlslCalls WavesField::calls() const {
@@ -356,7 +356,7 @@ GlslCalls WavesField::calls() const {
 
 const Description& describe(const HurricaneField*) {
     using F = HurricaneField;
-    static const Description it =
+    static const Description description =
         Describe<F>("hurricane", "The gradient wind of a hurricane [Holland 1980], with inflow and updraft.")
             .key("origin", &F::origin, {"m", "The eye at the ground."})
             .key("speed", &F::speed,
@@ -370,7 +370,7 @@ const Description& describe(const HurricaneField*) {
             .key("height", &F::height, {"m", "The height above which there is no wind.", aboveZero()})
             .key("coriolis", &F::coriolis,
                  {"1/s", "The Coriolis parameter: 5e-5 at 20° of latitude.", Range::between(0, 1)});
-    return it;
+    return description;
 }
 
 GlslCalls HurricaneField::calls() const {
@@ -385,13 +385,13 @@ GlslCalls HurricaneField::calls() const {
 }
 
 const Description& describe(const Field*) {
-    static const Description it =
+    static const Description description =
         Describe<Field>("field", "A velocity of the fluid. Fields add up, and move what has drag.")
             .key("name", &Field::name, {"", "Its name in messages and in the panel; no two have the same."})
             .alternatives("type", &Field::shape, {"", "Which velocity it is."})
             .key("weight", &Field::weight, {"", "What multiplies the velocity."})
             .box("box", &Field::box, {"m", "The field has no effect outside this box."});
-    return it;
+    return description;
 }
 
 const char* kindName(const FieldShape& shape) {

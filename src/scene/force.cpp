@@ -24,10 +24,11 @@ const Description& describe(const AttractForce*) {
         const char* key = square ? "most" : "radius";
         where.require(key);
         if (!square && where.given("most"))
-            throw Error(where.at("most"), "\"most\" bounds an inverse square: a constant falloff has none");
-        needWithin(where.at(key), square ? force.most : force.radius, aboveZero());
+            throw Error(where.locate("most"),
+                        "\"most\" bounds an inverse square: a constant falloff has none");
+        needWithin(where.locate(key), square ? force.most : force.radius, aboveZero());
     };
-    static const Description it =
+    static const Description description =
         Describe<AttractForce>(
             "attract",
             "Pulls towards a point, or away from it where the strength is negative; at most by `most`.")
@@ -45,7 +46,7 @@ const Description& describe(const AttractForce*) {
             .rule(rule, R"({"if": {"properties": {"falloff": {"const": "constant"}}, "required": ["falloff"]},
                             "then": {"required": ["radius"], "not": {"required": ["most"]}},
                             "else": {"required": ["most"]}})");
-    return it;
+    return description;
 }
 
 AttractForce AttractForce::times(double factor) const {
@@ -69,7 +70,7 @@ GlslCall AttractForce::call() const {
 }
 
 const Description& describe(const VortexLineForce*) {
-    static const Description it =
+    static const Description description =
         Describe<VortexLineForce>(
             "vortexLine",
             "Pulls towards a line and around it [Latta 2004]: both grow as d / core up to the core, "
@@ -84,7 +85,7 @@ const Description& describe(const VortexLineForce*) {
             .key("radius", &VortexLineForce::radius,
                  {"m", "There is no force beyond this distance; without it there is no end.", aboveZero()})
             .unlessZero();
-    return it;
+    return description;
 }
 
 VortexLineForce VortexLineForce::times(double factor) const {
@@ -112,7 +113,7 @@ const Description& describe(const ThrustForce*) {
     static const auto rule = [](const ThrustForce& force, const Where& where) {
         if (force.rate > 0) where.require("limit");
     };
-    static const Description it =
+    static const Description description =
         Describe<ThrustForce>(
             "thrust",
             "What propels itself [Latta 2004]: dv/dt = rate · v while the speed is below the limit, which "
@@ -126,25 +127,25 @@ const Description& describe(const ThrustForce*) {
             .rule(
                 rule,
                 R"({"if": {"properties": {"rate": {"exclusiveMinimum": 0}}}, "then": {"required": ["limit"]}})");
-    return it;
+    return description;
 }
 
 const Description& describe(const WindForce*) {
-    static const Description it =
+    static const Description description =
         Describe<WindForce>(
             "wind",
             "Adds to the fluid's velocity: it moves what has drag, like a uniform field, but some groups "
             "only, and on a path.")
             .key("velocity", &WindForce::velocity, {"m/s", "The velocity that it adds."})
             .needed();
-    return it;
+    return description;
 }
 
 // ---- How forces move, and whom they act on
 
 const Description& describe(const ForcePath::Keyframe*) {
     using Keyframe = ForcePath::Keyframe;
-    static const Description it =
+    static const Description description =
         Describe<Keyframe>("keyframe", "A moment of a force's path.")
             .key("time", &Keyframe::time, {"s", "The time, after that of the keyframe before."})
             .needed()
@@ -152,37 +153,37 @@ const Description& describe(const ForcePath::Keyframe*) {
             .key("factor", &Keyframe::factor,
                  {"",
                   "What multiplies the strength: the acceleration, the rate or the velocity, but no bound."});
-    return it;
+    return description;
 }
 
 const Description& describe(const ForcePath*) {
     static const auto rule = [](const ForcePath& path, const Where& where) {
         checkKeyframes(path.keyframes, where);
     };
-    static const Description it =
+    static const Description description =
         Describe<ForcePath>("path",
                             "How a force moves and changes: in a straight line from keyframe to keyframe.")
             .key("repeats", &ForcePath::repeats, {"", "Whether it starts over after the last keyframe."})
             .key("keyframes", &ForcePath::keyframes, {"", "At least two moments, in order."})
             .needed()
             .rule(rule, R"({"properties": {"keyframes": {"minItems": 2}}})");
-    return it;
+    return description;
 }
 
 const Description& describe(const Force*) {
     static const auto rule = [](const Force& force, const Where& where) {
         if (placeOf(*force.shape)) return;
         if (force.mouse)
-            throw Error(where.at("mouse"),
+            throw Error(where.locate("mouse"),
                         "thrust and wind act alike everywhere: they cannot follow the mouse");
         for (size_t i = 0; force.path && i < force.path->keyframes.size(); ++i) {
             const Where path = where.in("path"), frame = path.in("keyframes", i);
             if (frame.given("offset") || force.path->keyframes[i].offset != glm::dvec3(0))
-                throw Error(frame.at("offset"),
+                throw Error(frame.locate("offset"),
                             "thrust and wind act alike everywhere: they have no place to move");
         }
     };
-    static const Description it =
+    static const Description description =
         Describe<Force>("force",
                         "Accelerates molecules, beside the fields, gravity and springs. Forces add up.")
             .location(&Force::location)
@@ -198,7 +199,7 @@ const Description& describe(const Force*) {
                             "then": {"not": {"required": ["mouse"]},
                                      "properties": {"path": {"properties": {"keyframes": {
                                        "items": {"not": {"required": ["offset"]}}}}}}}})");
-    return it;
+    return description;
 }
 
 std::optional<glm::dvec3> placeOf(const ForceShape& shape) {

@@ -106,7 +106,7 @@ class GlslCall {
     const std::optional<glm::dquat>& rotation() const { return rotation_; }
     bool readsSamples() const {
         return std::any_of(arguments_.begin(), arguments_.end(),
-                           [](const Argument& one) { return one.kind == Kind::samples; });
+                           [](const Argument& argument) { return argument.kind == Kind::samples; });
     }
     // The point from which the position is taken, of one whose first argument that is.
     glm::dvec3 origin() const { return arguments_.front().value; }

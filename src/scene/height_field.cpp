@@ -48,9 +48,9 @@ HeightFieldCollider heightFieldFromMesh(const Mesh& mesh, int columns, int rows,
     field.low = {mesh.low.x, mesh.low.z};
     field.high = {mesh.high.x, mesh.high.z};
     field.heights.assign(size_t(columns) * size_t(rows), nothing);
-    const auto at = [&](int vertex) -> const glm::dvec3& { return mesh.positions[size_t(vertex)]; };
+    const auto position = [&](int vertex) -> const glm::dvec3& { return mesh.positions[size_t(vertex)]; };
     for (const glm::ivec3& t : mesh.triangles)
-        rasterise(field, at(t.x), at(t.y), at(t.z));
+        rasterise(field, position(t.x), position(t.y), position(t.z));
 
     const auto holes = std::count(field.heights.begin(), field.heights.end(), nothing);
     if (missed) *missed = static_cast<int>(holes);

@@ -14,10 +14,10 @@ namespace shoal {
 template <typename Keyframe>
 void checkKeyframes(const std::vector<Keyframe>& keyframes, const Where& where) {
     if (keyframes.size() < 2)
-        throw Error(where.at("keyframes"), "expected at least two keyframes, found ", keyframes.size());
+        throw Error(where.locate("keyframes"), "expected at least two keyframes, found ", keyframes.size());
     for (size_t i = 1; i < keyframes.size(); ++i)
         if (const double before = keyframes[i - 1].time; !(keyframes[i].time > before))
-            throw Error(where.in("keyframes", i).at("time"),
+            throw Error(where.in("keyframes", i).locate("time"),
                         "expected a time after that of the keyframe before, ", before, " s, found ",
                         keyframes[i].time);
 }

@@ -24,10 +24,10 @@ struct Periodic {
 
     explicit Periodic(const glm::ivec3& points)
         : size(points), values(size_t(points.x) * size_t(points.y) * size_t(points.z)) {}
-    size_t index(glm::ivec3 at) const {
+    size_t index(glm::ivec3 texel) const {
         for (int d = 0; d < 3; ++d)
-            at[d] = (at[d] % size[d] + size[d]) % size[d];
-        return (size_t(at.z) * size_t(size.y) + size_t(at.y)) * size_t(size.x) + size_t(at.x);
+            texel[d] = (texel[d] % size[d] + size[d]) % size[d];
+        return (size_t(texel.z) * size_t(size.y) + size_t(texel.y)) * size_t(size.x) + size_t(texel.x);
     }
     // Sets each value to work(point), on all threads.
     template <typename Work>
@@ -64,8 +64,8 @@ using Gradients = glm::dmat3x4;
 
 Periodic<Gradients> lattice(const glm::ivec3& cells, uint32_t seed) {
     Periodic<Gradients> out(cells);
-    out.fill([&](const glm::ivec3& at) {
-        const glm::uvec4 hash = pcg4d(glm::uvec4(glm::uvec3(at), seed));
+    out.fill([&](const glm::ivec3& cell) {
+        const glm::uvec4 hash = pcg4d(glm::uvec4(glm::uvec3(cell), seed));
         Gradients g;
         for (int k = 0; k < 3; ++k)
             for (int byte = 0; byte < 4; ++byte)
@@ -102,9 +102,10 @@ double meanSquare(const Periodic<T>& grid, double (*product)(const T&, const T&)
         const Periodic<T> before = smooth;
         glm::ivec3 step(0);
         step[d] = 1;
-        smooth.fill([&](const glm::ivec3& at) {
-            return before.values[before.index(at)] * (2.0 / 3) +
-                   (before.values[before.index(at - step)] + before.values[before.index(at + step)]) / 6.0;
+        smooth.fill([&](const glm::ivec3& texel) {
+            return before.values[before.index(texel)] * (2.0 / 3) +
+                   (before.values[before.index(texel - step)] + before.values[before.index(texel + step)]) /
+                       6.0;
         });
     }
     double sum = 0;
@@ -124,28 +125,29 @@ std::vector<float> curlTile(const NoiseTile& tile) {
         const Periodic<Gradients> gradients = lattice(tile.cells << octave, uint32_t(octave));
         expected += amplitude * amplitude;
         Periodic<glm::dvec3> sum(tile.texels);
-        sum.fill([&](const glm::ivec3& at) {
-            return potential.values[potential.index(at)] +
-                   amplitude / fine * noise(gradients, (glm::dvec3(at) + 0.5) * (cell * fine), partOfValues);
+        sum.fill([&](const glm::ivec3& texel) {
+            return potential.values[potential.index(texel)] +
+                   amplitude / fine *
+                       noise(gradients, (glm::dvec3(texel) + 0.5) * (cell * fine), partOfValues);
         });
         potential = std::move(sum);
     }
-    velocity.fill([&](const glm::ivec3& at) {
+    velocity.fill([&](const glm::ivec3& texel) {
         glm::dmat3 slope(0);  // slope[j][k] = d potential[k] / d x[j]
         for (int i = 0; i < 8; ++i) {
             const glm::ivec3 side = corner(i);
-            const glm::dvec3& value = potential.values[potential.index(at - 1 + side)];
+            const glm::dvec3& value = potential.values[potential.index(texel - 1 + side)];
             for (int d = 0; d < 3; ++d)
                 slope[d] += value * (side[d] ? 0.25 : -0.25);
         }
         return glm::dvec3(slope[1][2] - slope[2][1], slope[2][0] - slope[0][2], slope[0][1] - slope[1][0]);
     });
     // The RMS of the curl of three noises in four dimensions, from the integrals of the quintic.
-    constexpr double one = 1.17708;
+    constexpr double unscaled = 1.17708;
     const double scale =
-        one * std::sqrt(expected / meanSquare<glm::dvec3>(velocity, [](const auto& a, const auto& b) {
-                            return glm::dot(a, b);
-                        }));
+        unscaled * std::sqrt(expected / meanSquare<glm::dvec3>(velocity, [](const auto& a, const auto& b) {
+                                 return glm::dot(a, b);
+                             }));
     const double unit = tile.range / 511;
     std::vector<float> out;
     out.reserve(velocity.values.size() * 3);
@@ -160,8 +162,8 @@ std::vector<float> curlTile(const NoiseTile& tile) {
 std::vector<float> gustTile(const NoiseTile& tile) {
     const Periodic<Gradients> large = lattice(tile.cells, 100), small = lattice(tile.cells * 2, 101);
     Periodic<double> grid(tile.texels);
-    grid.fill([&](const glm::ivec3& at) {
-        const glm::dvec3 p = (glm::dvec3(at) + 0.5) * glm::dvec3(tile.cells) / glm::dvec3(tile.texels);
+    grid.fill([&](const glm::ivec3& texel) {
+        const glm::dvec3 p = (glm::dvec3(texel) + 0.5) * glm::dvec3(tile.cells) / glm::dvec3(tile.texels);
         return noise(large, p, 0).x + noise(small, 2.0 * p + 0.31, 0).x / 2;
     });
     double mean = 0;

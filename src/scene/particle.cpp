@@ -18,22 +18,23 @@ const std::vector<std::string> facingWords = {"camera", "velocity", "free"};
 
 void checkAges(const ParticleType& type, const Where& where) {
     const size_t count = type.colors.size();
-    if (count == 0) throw Error(where.at("colors"), "expected at least one keyframe, found none");
+    if (count == 0) throw Error(where.locate("colors"), "expected at least one keyframe, found none");
     if (count > mostColorKeys)
-        throw Error(where.at("colors"), "expected at most ", mostColorKeys, " keyframes, found ", count);
+        throw Error(where.locate("colors"), "expected at most ", mostColorKeys, " keyframes, found ", count);
     for (size_t i = 1; i < count; ++i) {
         const Where here = where.in("colors", i);
         here.require("age");
         const double age = type.colors[i].age, before = type.colors[i - 1].age;
         if (age - before < leastPositive)
-            throw Error(here.at("age"), "expected an age above that of the keyframe before, ", before,
+            throw Error(here.locate("age"), "expected an age above that of the keyframe before, ", before,
                         ", found ", age);
     }
 }
 
 void checkType(const ParticleType& type, const Where& where) {
     if (type.growth == glm::dvec2(0))
-        throw Error(where.at("growth"), "expected a factor above 0 at birth or at the end, found 0 for both");
+        throw Error(where.locate("growth"),
+                    "expected a factor above 0 at birth or at the end, found 0 for both");
     checkAges(type, where);
 }
 
@@ -42,19 +43,20 @@ void checkImage(const ParticleImage& image, const Where& where) {
     const int most = image.columns * image.rows - 1;
     for (const int tile : {image.firstTile, image.lastTile})
         if (tile < 0 || tile > most)
-            throw Error(where.at(key), "the image has tiles 0 to ", most, ", found ", tile);
+            throw Error(where.locate(key), "the image has tiles 0 to ", most, ", found ", tile);
     if (image.firstTile > image.lastTile)
-        throw Error(where.at(key), "expected [first, last], found ", image.firstTile, " above ",
+        throw Error(where.locate(key), "expected [first, last], found ", image.firstTile, " above ",
                     image.lastTile);
     if (image.flipBook && image.firstTile == image.lastTile)
-        throw Error(where.at("flipBook"), "a flip-book needs at least two tiles");
+        throw Error(where.locate("flipBook"), "a flip-book needs at least two tiles");
 }
 
 void checkPixels(ParticleImage& image, const Where& where) {
     const Image pixels = readPng(image.file);
     if (pixels.width % image.columns != 0 || pixels.height % image.rows != 0)
-        throw Error(where.at("file"), "the image is ", pixels.width, " x ", pixels.height, " pixels, which ",
-                    image.columns, " x ", image.rows, " tiles of the same size do not fill");
+        throw Error(where.locate("file"), "the image is ", pixels.width, " x ", pixels.height,
+                    " pixels, which ", image.columns, " x ", image.rows,
+                    " tiles of the same size do not fill");
 }
 
 void readFileOf(JsonReader& r, ParticleImage& image, void*) {
@@ -76,16 +78,16 @@ void readTile(JsonReader& r, ParticleImage& image, void*) {
 }
 
 JsonValue writeTile(const ParticleImage& image, const void*) {
-    const bool one = image.firstTile == image.lastTile && image.columns * image.rows > 1;
-    return one ? JsonValue::makeNumber(image.firstTile) : JsonValue();
+    const bool single = image.firstTile == image.lastTile && image.columns * image.rows > 1;
+    return single ? JsonValue::makeNumber(image.firstTile) : JsonValue();
 }
 
 void readTiles(JsonReader& r, ParticleImage& image, void*) {
     std::vector<int> ends;
     if (!r.get("tiles", ends)) return;
-    if (r.has("tile")) throw Error(r.at("tiles"), "\"tiles\" is given besides \"tile\": one of the two");
+    if (r.has("tile")) throw Error(r.locate("tiles"), "\"tiles\" is given besides \"tile\": one of the two");
     if (ends.size() != 2)
-        throw Error(r.at("tiles"), "expected [first, last], found ", ends.size(), " numbers");
+        throw Error(r.locate("tiles"), "expected [first, last], found ", ends.size(), " numbers");
     image.firstTile = ends[0];
     image.lastTile = ends[1];
 }
@@ -107,7 +109,7 @@ const char* name(ParticleFacing facing) {
 }
 
 const Description& describe(const ColorKey*) {
-    static const Description it =
+    static const Description description =
         Describe<ColorKey>("keyframe", "Colour and opacity at a moment of a particle's life.")
             .key(
                 "age", &ColorKey::age,
@@ -118,12 +120,12 @@ const Description& describe(const ColorKey*) {
                 "color", &ColorKey::color,
                 {"", "Linear red, green and blue; above 1 it glows.", Range::between(0, mostParticleColor)})
             .key("opacity", &ColorKey::opacity, {"", "How much it covers.", Range::between(0, 1)});
-    return it;
+    return description;
 }
 
 const Description& describe(const ParticleImage*) {
     using P = ParticleImage;
-    static const Description it =
+    static const Description description =
         Describe<P>("image", "An image, cut into tiles of the same size.")
             .byHand("file", {.notEmpty = true}, {"the name of a PNG with alpha", "The image."}, readFileOf,
                     writeFileOf)
@@ -135,9 +137,9 @@ const Description& describe(const ParticleImage*) {
                   "The number of tiles from top to bottom; they count along the rows from 0 at the upper "
                   "left.",
                   Range::between(1, mostTiles)})
-            .byHand("tile", {.of = Form::Of::whole, .range = Range::atLeast(0)},
+            .byHand("tile", {.value = Form::Value::whole, .range = Range::atLeast(0)},
                     {"whole number", "The only tile in use."}, readTile, writeTile)
-            .byHand("tiles", {.of = Form::Of::whole, .lists = {{2, 2}}, .range = Range::atLeast(0)},
+            .byHand("tiles", {.value = Form::Value::whole, .lists = {{2, 2}}, .range = Range::atLeast(0)},
                     {"[first, last]", "The tiles in use; all without it."}, readTiles, writeTiles)
             .key("flipBook", &P::flipBook,
                  {"",
@@ -152,7 +154,7 @@ const Description& describe(const ParticleImage*) {
             .only("flipBook", {"true"})
             .derive(checkPixels)
             .rule(checkImage, R"({"not": {"required": ["tile", "tiles"]}})");
-    return it;
+    return description;
 }
 
 const Description& describe(const ParticleType*) {
@@ -160,7 +162,7 @@ const Description& describe(const ParticleType*) {
     const Range turns = Range::between(-mostParticleTurn, mostParticleTurn);
     const std::vector<std::string> sized = {"sprites", "quads"};
     constexpr double round = 6.283185307179586;
-    static const Description it =
+    static const Description description =
         Describe<P>("particle", "A type of point particle: its mass and its looks.")
             .key("mass", &P::mass,
                  {"kg", "Its mass.", Range::between(leastParticleMass, mostParticleMass), {1e-6, 10, true}})
@@ -226,7 +228,7 @@ const Description& describe(const ParticleType*) {
             .key("lit", &P::lit, {"", "Whether sun and sky light it; else it sends its own colour."})
             .only("blend", {"none", "alpha", "additive"})
             .rule(checkType, R"({"properties": {"colors": {"minItems": 1, "maxItems": 4}}})");
-    return it;
+    return description;
 }
 
 std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where) {
@@ -246,10 +248,10 @@ ColorPieces colorPieces(const std::vector<ColorKey>& keys) {
     ColorPieces out;
     out.first = valueOf(keys.front());
     for (size_t i = 0; i + 1 < keys.size(); ++i) {
-        const auto at = glm::length_t(i);
+        const auto component = glm::length_t(i);
         out.changes[i] = valueOf(keys[i + 1]) - valueOf(keys[i]);
-        out.begins[at] = float(keys[i].age);
-        out.perAge[at] = float(1 / (keys[i + 1].age - keys[i].age));
+        out.begins[component] = float(keys[i].age);
+        out.perAge[component] = float(1 / (keys[i + 1].age - keys[i].age));
     }
     return out;
 }

@@ -20,11 +20,12 @@ namespace shoal {
 
 const Description& describe(const Placement::Item*) {
     using Item = Placement::Item;
-    static const Description it = Describe<Item>("item", "Where one molecule stands.")
-                                      .key("position", &Item::position, {"m", "Where it is."})
-                                      .rotation("rotation", &Item::rotation, {"", "How it is turned."})
-                                      .key("scale", &Item::scale, {"", "Its size.", aboveZero()});
-    return it;
+    static const Description description =
+        Describe<Item>("item", "Where one molecule stands.")
+            .key("position", &Item::position, {"m", "Where it is."})
+            .rotation("rotation", &Item::rotation, {"", "How it is turned."})
+            .key("scale", &Item::scale, {"", "Its size.", aboveZero()});
+    return description;
 }
 
 const Description& describe(const Placement*) {
@@ -38,10 +39,10 @@ const Description& describe(const Placement*) {
     };
     static const auto rule = [](const P& place, const Where& where) {
         if (place.align == P::Align::normal && !place.onModel())
-            throw Error(where.at("align"),
+            throw Error(where.locate("align"),
                         "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
     };
-    static const Description it =
+    static const Description description =
         Describe<P>("place", "Where molecules start, and how they stand.")
             .word("on", &P::kind, {"vertices", "surface", "volume", "grid", "list"},
                   {"",
@@ -87,7 +88,7 @@ const Description& describe(const Placement*) {
             .key("offset", &P::offset, {"m", "How far it is moved along the axis, before that is bent."})
             .derive(derive)
             .rule(rule);
-    return it;
+    return description;
 }
 
 namespace {
@@ -118,10 +119,10 @@ glm::dvec3 across(const glm::dvec3& axis) {
     return glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? up() : glm::dvec3(1, 0, 0)));
 }
 
-// The shortest rotation that takes unit a to unit b; half a turn about `otherwise` when they are opposite.
-glm::dquat arc(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& otherwise) {
+// The shortest rotation that takes unit a to unit b; half a turn about `fallback` when they are opposite.
+glm::dquat arc(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& fallback) {
     const double cosine = glm::dot(a, b);
-    if (cosine < -1 + 1e-12) return about(otherwise, pi);
+    if (cosine < -1 + 1e-12) return about(fallback, pi);
     const glm::dvec3 axis = glm::cross(a, b);
     return glm::normalize(glm::dquat(1 + cosine, axis.x, axis.y, axis.z));
 }
@@ -153,7 +154,7 @@ class Hosts {
             accumulateAreas();
     }
 
-    Host at(size_t instance, Random& random) const {
+    Host host(size_t instance, Random& random) const {
         switch (place_.kind) {
         case Placement::Kind::vertices:
             return onVertex(instance);
@@ -295,7 +296,7 @@ void forEachInstance(const Scene& scene, size_t group,
         for (size_t i = first; i < std::min(first + piece, count); ++i) {
             const uint64_t stream = streamOf(scene.seed, group, i);
             Random random(stream);
-            const Host host = hosts.at(i, random);
+            const Host host = hosts.host(i, random);
             Instance instance = orient(g.place, host, random);
             instance.seed = static_cast<uint32_t>(mix(stream) >> 32);
             visit(i, instance);

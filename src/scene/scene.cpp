@@ -38,7 +38,7 @@ const char* name(ContactResponse response) {
 
 const Description& describe(const SolverSettings*) {
     using S = SolverSettings;
-    static const Description it =
+    static const Description description =
         Describe<S>("solver", "How molecules are advanced.")
             .location(&S::location)
             .word("method", &S::kind, solverWords(),
@@ -47,12 +47,12 @@ const Description& describe(const SolverSettings*) {
                  {"", "The number of substeps of a frame.", Range::between(1, maxSubsteps)})
             .word("fieldSampling", &S::fieldSampling, samplingWords,
                   {"", "Where and how often fields are read."});
-    return it;
+    return description;
 }
 
 const Description& describe(const ContactSettings*) {
     using S = ContactSettings;
-    static const Description it =
+    static const Description description =
         Describe<S>("contact", "Contact of molecules with one another.")
             .location(&S::location)
             .key("steps", &S::steps,
@@ -87,14 +87,14 @@ const Description& describe(const ContactSettings*) {
                   "The size of a cell, at least 4.1 times the largest radius, and more with `fastest`; "
                   "best left out: cells are then as large as is needed.",
                   aboveZero()});
-    return it;
+    return description;
 }
 
 const Description& describe(const Camera*) {
     static const auto rule = [](const Camera& camera, const Where& where) {
         if (camera.eye == camera.target) throw Error(where.here(), "expected eye and target apart");
     };
-    static const Description it =
+    static const Description description =
         Describe<Camera>("camera", "From where the scene is seen.")
             .key("eye", &Camera::eye, {"m", "Where the camera is."})
             .key("target", &Camera::target, {"m", "The point in the middle of the picture."})
@@ -102,21 +102,21 @@ const Description& describe(const Camera*) {
                  {"rad", "The angle between the picture's lower and upper edge.", Range::between(0.01, 3.1)})
             .key("exposure", &Camera::exposure, {"", "What multiplies the light.", aboveZero()})
             .rule(rule);
-    return it;
+    return description;
 }
 
 const Description& describe(const Light*) {
-    static const Description it =
+    static const Description description =
         Describe<Light>("light", "The sun.")
             .direction("direction", &Light::direction, {"", "The direction in which its light travels."})
             .color("color", &Light::color, {"", "Its colour."})
             .key("intensity", &Light::intensity, {"", "Its strength.", Range::atLeast(0)})
             .key("shadows", &Light::shadows, {"", "Whether it casts shadows."});
-    return it;
+    return description;
 }
 
 const Description& describe(const Sky*) {
-    static const Description it =
+    static const Description description =
         Describe<Sky>("sky", "The sky, which lights from all sides.")
             .color("zenith", &Sky::zenith, {"", "Its colour overhead."})
             .color("horizon", &Sky::horizon, {"", "Its colour at the horizon."})
@@ -129,17 +129,17 @@ const Description& describe(const Sky*) {
             .key("occlusion", &Sky::occlusion,
                  {"", "How much darker it is where near things hide the sky; 0: not at all, which is faster.",
                   Range::between(0, 1)});
-    return it;
+    return description;
 }
 
 const Description& describe(const Drag*) {
-    static const Description it =
+    static const Description description =
         Describe<Drag>("drag", "Stokes drag that differs with the direction.")
             .key("normal", &Drag::normal, {"1/s", "The drag rate across the surface.", Range::atLeast(0)})
             .needed()
             .key("tangent", &Drag::tangent, {"1/s", "The drag rate along the surface.", Range::atLeast(0)})
             .needed();
-    return it;
+    return description;
 }
 
 const Description& describe(const Release*) {
@@ -147,7 +147,7 @@ const Description& describe(const Release*) {
         if (!release.force && !release.rate)
             throw Error(where.here(), "expected a \"force\" or a \"rate\" at which pins let go");
     };
-    static const Description it =
+    static const Description description =
         Describe<Release>("release", "When pins let go; all pins of a molecule do so together.")
             .key("force", &Release::force,
                  {"N",
@@ -159,12 +159,12 @@ const Description& describe(const Release*) {
                  {"1/s", "They let go at random, at this rate per molecule.", aboveZero()})
             .key("after", &Release::after, {"s", "They hold before this time.", Range::atLeast(0)})
             .rule(rule, R"({"anyOf": [{"required": ["force"]}, {"required": ["rate"]}]})");
-    return it;
+    return description;
 }
 
 const Description& describe(const GroupContact*) {
     using C = GroupContact;
-    static const Description it =
+    static const Description description =
         Describe<C>("contact",
                     "Contact with the molecules of any group that has it: spheres at the vertices.")
             .location(&C::location)
@@ -177,7 +177,7 @@ const Description& describe(const GroupContact*) {
                  {"",
                   "Whether spheres of one molecule meet, too, but for those that are closer than two radii "
                   "in its rest shape."});
-    return it;
+    return description;
 }
 
 const Description& describe(const ColorScale*) {
@@ -187,7 +187,7 @@ const Description& describe(const ColorScale*) {
         const JsonValue* list = r.raw("colors");
         if (!list) return;
         if (list->kind != JsonValue::Kind::array)
-            throw Error(r.at("colors"), "expected an array of colours, found ", name(list->kind));
+            throw Error(r.locate("colors"), "expected an array of colours, found ", name(list->kind));
         scale.colors.clear();
         for (const JsonValue& item : list->items) {
             glm::dvec3 color(-1);
@@ -200,17 +200,17 @@ const Description& describe(const ColorScale*) {
     };
     static const auto rule = [](const C& scale, const Where& where) {
         if (scale.to - scale.from < leastPositive)
-            throw Error(where.at("to"), "expected \"to\" above \"from\" (", scale.from, "), found ",
+            throw Error(where.locate("to"), "expected \"to\" above \"from\" (", scale.from, "), found ",
                         scale.to);
         if (scale.colors.size() < leastScaleColors || scale.colors.size() > mostScaleColors)
-            throw Error(where.at("colors"), "expected ", leastScaleColors, " to ", mostScaleColors,
+            throw Error(where.locate("colors"), "expected ", leastScaleColors, " to ", mostScaleColors,
                         " colours, found ", scale.colors.size());
         for (size_t i = 0; i < scale.colors.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 if (!contains(Range::between(0, 1), scale.colors[i][c]))
                     throw Error(where.in("colors", i).here(), noColor);
     };
-    static const Description it =
+    static const Description description =
         Describe<C>("colorBy",
                     "Colours by what molecules do, in place of their own; they multiply those of "
                     "particles and of images.")
@@ -220,18 +220,19 @@ const Description& describe(const ColorScale*) {
             .key("to", &C::to, {"", "The quantity of the last colour, above `from`, and beyond it."})
             .needed()
             .byHand(
-                "colors", {.of = Form::Of::number, .lists = {{2, 8}, {3, 3}}, .range = Range::between(0, 1)},
+                "colors",
+                {.value = Form::Value::number, .lists = {{2, 8}, {3, 3}}, .range = Range::between(0, 1)},
                 {"2 to 8 colours, each from 0 to 1",
                  "Colours at even distances, linear between. Those of the default rise in lightness in even "
                  "steps, so that the picture can be read in grey as well."},
                 readColors)
             .usually("dark blue over green to yellow")
             .rule(rule);
-    return it;
+    return description;
 }
 
 const Description& describe(const Water*) {
-    static const Description it =
+    static const Description description =
         Describe<Water>("water", "The scene is under water: what the picture makes of it.")
             .key("surface", &Water::surface, {"m", "The y of the calm surface; all below it is water."})
             .key("extinction", &Water::extinction,
@@ -245,7 +246,7 @@ const Description& describe(const Water*) {
                  {"m/s", "The speed at which it runs.", Range::atLeast(0)})
             .key("rays", &Water::rays,
                  {"", "The strength of the beams through the water.", Range::between(0, 1)});
-    return it;
+    return description;
 }
 
 }  // namespace shoal

@@ -9,7 +9,7 @@ namespace shoal {
 
 const Description& describe(const SchoolTarget*) {
     using S = SchoolTarget;
-    static const Description it =
+    static const Description description =
         Describe<S>("target", "A group that is fled from, or hunted.")
             .location(&S::location)
             .key("group", &S::group, {"", "The name of the group."})
@@ -18,7 +18,7 @@ const Description& describe(const SchoolTarget*) {
             .key("strength", &S::strength,
                  {"m/s²", "The acceleration at the distance 0, down to none at the radius.",
                   Range::atLeast(0)});
-    return it;
+    return description;
 }
 
 const Description& describe(const SchoolHome*) {
@@ -27,14 +27,14 @@ const Description& describe(const SchoolHome*) {
         if (home.box) {
             for (const char* key : {"center", "radius"})
                 if (where.given(key))
-                    throw Error(where.at(key), "\"", key, "\" has no effect beside \"box\"");
+                    throw Error(where.locate(key), "\"", key, "\" has no effect beside \"box\"");
             return;
         }
         where.require("center");
         where.require("radius");
-        needWithin(where.at("radius"), home.radius, aboveZero());
+        needWithin(where.locate("radius"), home.radius, aboveZero());
     };
-    static const Description it =
+    static const Description description =
         Describe<S>("home", "Where they like to be: they are pulled back to it.")
             .box("box", &S::box, {"m", "A box; without it the home is a ball."})
             .key("center", &S::center, {"m", "The middle of the ball."})
@@ -43,7 +43,7 @@ const Description& describe(const SchoolHome*) {
             .key("strength", &S::strength,
                  {"1/s²", "The acceleration by the distance from it.", Range::atLeast(0)})
             .rule(rule, R"({"oneOf": [{"required": ["box"]}, {"required": ["center", "radius"]}]})");
-    return it;
+    return description;
 }
 
 const Description& describe(const School*) {
@@ -64,7 +64,7 @@ const Description& describe(const School*) {
             throw Error(where.here(), "expected a depth from its lowest to its highest y, found ",
                         school.depth->x, " and ", school.depth->y);
     };
-    static const Description it =
+    static const Description description =
         Describe<S>("school",
                     "Flocking [Reynolds 1987]: the molecules of a group steer by one another, by walls, and "
                     "by those that they flee or hunt.")
@@ -114,7 +114,7 @@ const Description& describe(const School*) {
             .key("hunts", &S::hunts, {"", "The groups that it hunts."})
             .derive(derive)
             .rule(rule);
-    return it;
+    return description;
 }
 
 static bool targets(const std::vector<SchoolTarget>& list, const std::string& name) {

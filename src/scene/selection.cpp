@@ -13,10 +13,10 @@ const Description& describe(const Selection*) {
     using S = Selection;
     static const auto rule = [](const S& select, const Where& where) {
         if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
-            throw Error(where.at("maxHeight"), "expected maxHeight of at least minHeight (",
+            throw Error(where.locate("maxHeight"), "expected maxHeight of at least minHeight (",
                         *select.minHeight, "), found ", *select.maxHeight);
     };
-    static const Description it =
+    static const Description description =
         Describe<S>("select", "Which part of a model; all that is given must hold.")
             .key("object", &S::object,
                  {"the name of an object", "The object of the model's file that it belongs to."})
@@ -33,7 +33,7 @@ const Description& describe(const Selection*) {
                  {"", "The thinnest share of the vertices that meet all else: the smallest branches.",
                   Range{0, 1, true}})
             .rule(rule);
-    return it;
+    return description;
 }
 
 namespace {

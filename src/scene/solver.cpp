@@ -104,10 +104,10 @@ constexpr Solver table[] = {
 // do.
 consteval bool sound() {
     for (size_t i = 0; i < std::size(table); ++i) {
-        const Solver& one = table[i];
-        if (size_t(one.kind) != i || !one.tableau.needsOneSum()) return false;
-        if (one.tableau.stages > 0 && one.tableau.disc <= 0) return false;
-        if (int(one.implicit) + int(one.stableStep != nullptr) + int(one.tableau.stages > 0) != 1)
+        const Solver& solver = table[i];
+        if (size_t(solver.kind) != i || !solver.tableau.needsOneSum()) return false;
+        if (solver.tableau.stages > 0 && solver.tableau.disc <= 0) return false;
+        if (int(solver.implicit) + int(solver.stableStep != nullptr) + int(solver.tableau.stages > 0) != 1)
             return false;
     }
     return std::size(table) > size_t(SolverKind::bdf2Corotated);
@@ -137,8 +137,8 @@ const char* name(SolverKind kind) {
 const std::vector<std::string>& solverWords() {
     static const std::vector<std::string> words = [] {
         std::vector<std::string> out = {"auto"};
-        for (const Solver& one : table)
-            out.emplace_back(one.name);
+        for (const Solver& solver : table)
+            out.emplace_back(solver.name);
         return out;
     }();
     return words;
@@ -146,8 +146,8 @@ const std::vector<std::string>& solverWords() {
 
 std::optional<SolverKind> solverOf(const std::string& word) {
     if (word == "auto") return std::nullopt;
-    for (const Solver& one : table)
-        if (word == one.name) return one.kind;
+    for (const Solver& solver : table)
+        if (word == solver.name) return solver.kind;
     throw Error("unknown solver \"", word, "\"", suggestion(word, solverWords()));
 }
 

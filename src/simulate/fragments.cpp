@@ -62,7 +62,7 @@ Fragments::Fragments(gpu::Context& context, const Plan& plan, const Tables& tabl
         };
         programs.watch = also(query_ && !group.isStill(), KernelOptions::Work::watch);
         programs.normals = also(state[g].hasNormals(), KernelOptions::Work::normals);
-        programs.touched = also(plan.contact.of(g) && !group.isStill(), KernelOptions::Work::touched);
+        programs.touched = also(plan.contact.find(g) && !group.isStill(), KernelOptions::Work::touched);
     }
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);

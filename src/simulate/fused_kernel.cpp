@@ -43,7 +43,7 @@ bool writesNormals(const GroupPlan& group, const KernelOptions& options) {
 // Whether contact with other molecules acts on the step.
 bool remembers(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     return options.work == Work::frame && plan.contact.remembers() &&
-           plan.contact.of(size_t(&group - plan.groups.data()));
+           plan.contact.find(size_t(&group - plan.groups.data()));
 }
 
 bool raisesAlarm(const KernelOptions& options) {
@@ -109,7 +109,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(options.software, "SOFTWARE");
     define(votes(group, options), "GROUP_VOTE");
     if (options.work == Work::watch || raisesAlarm(options)) out.push_back(fastestDefine());
-    const ContactGroup* contact = plan.contact.of(size_t(&group - plan.groups.data()));
+    const ContactGroup* contact = plan.contact.find(size_t(&group - plan.groups.data()));
     if (options.work == Work::touched || remembers(plan, group, options)) {
         EXPECTS(contact);
         out.push_back(concat("SPHERES ", contact->spheresOf));

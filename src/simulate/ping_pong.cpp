@@ -40,7 +40,7 @@ static_assert(stateWidth == 1024, "shaders/state and shaders/passes address rows
 std::string setOnceFor(const GroupPlan& group) {
     std::string out = name(group.solver);
     for (const auto* list : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
-        for (const GroupForces::One& one : *list)
+        for (const GroupForces::Entry& one : *list)
             out += concat(" ", one.force);
     for (const glm::vec4& parameter : group.colliderParameters)
         out.append(reinterpret_cast<const char*>(&parameter), sizeof parameter);
@@ -126,7 +126,7 @@ const Program& PingPong::makeProgram(gpu::Context& context, PassKind kind, size_
     wanted.fragment = concat("passes/", name(kind), ".frag");
     wanted.defines = defines(group);
     if (kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
-    if (const ContactGroup* contact = plan.contact.of(index)) {
+    if (const ContactGroup* contact = plan.contact.find(index)) {
         if (plan.contact.remembers())
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", rowBits(plan.contact.cells()))});

@@ -177,9 +177,9 @@ void NetworkSort::beginSpread(int frames) {
 void NetworkSort::advance() {
     EXPECTS(kind_ == Kind::oddEvenMerge);
     if (spread_.empty()) return;  // one pair, or none
-    const auto at = [&](int frame) { return spread_.size() * size_t(frame) / size_t(frames_); };
+    const auto passesBefore = [&](int frame) { return spread_.size() * size_t(frame) / size_t(frames_); };
     begin();
-    for (size_t i = at(frame_); i < at(frame_ + 1); ++i)
+    for (size_t i = passesBefore(frame_); i < passesBefore(frame_ + 1); ++i)
         run(spread_[i]);
     frame_ = (frame_ + 1) % frames_;
 }

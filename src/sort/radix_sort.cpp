@@ -26,8 +26,8 @@ constexpr size_t longestPiece = size_t(gpu::mostSoftwareTurns) - 2 * ((size_t(1)
 // Fewer pairs than these are not worth the work on 2,048 counters a lane.
 constexpr size_t manyPairs = size_t(1) << 16;
 
-int dividedUp(size_t value, size_t by) {
-    return int((value + by - 1) / by);
+int dividedUp(size_t value, size_t divisor) {
+    return int((value + divisor - 1) / divisor);
 }
 
 Program compute(gpu::Context& context, const char* file, int lanes, int digitBits) {

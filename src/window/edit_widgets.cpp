@@ -136,12 +136,13 @@ bool type(const Row& row, std::string& text) {
     return true;
 }
 
-std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words) {
+std::optional<size_t> choose(const Row& row, const std::string& current,
+                             const std::vector<std::string>& words) {
     std::optional<size_t> chosen;
     beginRow(row);
-    if (!ImGui::BeginCombo(hidden(row).c_str(), now.c_str())) return chosen;
+    if (!ImGui::BeginCombo(hidden(row).c_str(), current.c_str())) return chosen;
     for (size_t i = 0; i < words.size(); ++i)
-        if (ImGui::Selectable(words[i].c_str(), words[i] == now) && words[i] != now) chosen = i;
+        if (ImGui::Selectable(words[i].c_str(), words[i] == current) && words[i] != current) chosen = i;
     ImGui::EndCombo();
     return chosen;
 }

@@ -40,8 +40,9 @@ bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least 
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
 bool type(const Row& row, std::string& text);  // changes when the user is done with it
-// The index of the word that was chosen in this frame, which is another than `now`.
-std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words);
+// The index of the word that was chosen in this frame, which is another than `current`.
+std::optional<size_t> choose(const Row& row, const std::string& current,
+                             const std::vector<std::string>& words);
 bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color);  // of each channel
 
 // Two sliders for a unit vector: above the horizon, and around from -z over +x. `angles` remembers them where

@@ -16,8 +16,8 @@ void HotReload::follow(const RunningScene& running, bool fresh) {
     stale_ = false;
 }
 
-bool HotReload::update(RunningScene& running, double now) {
-    const std::vector<std::string> changed = watch_.changed(now);
+bool HotReload::update(RunningScene& running, double time) {
+    const std::vector<std::string> changed = watch_.changed(time);
     if (changed.empty()) return false;
     for (const std::string& file : changed) {
         if (std::find(changed_.begin(), changed_.end(), file) == changed_.end()) changed_.push_back(file);

@@ -96,8 +96,8 @@ float points(float count) {
 }
 
 void Interface::begin() {
-    const Density now = density();
-    if (!(now == made_)) makeFont(now);
+    const Density current = density();
+    if (!(current == made_)) makeFont(current);
     input_->next();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();

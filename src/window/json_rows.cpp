@@ -44,7 +44,7 @@ JsonValue asJson(const std::vector<double>& numbers, bool list) {
 
 bool isWhole(const Key& key) {
     return key.kind == Kind::whole || key.kind == Kind::whole3 || key.kind == Kind::seed ||
-           key.kind == Kind::longSeed || key.form.of == Form::Of::whole;
+           key.kind == Kind::longSeed || key.form.value == Form::Value::whole;
 }
 
 bool drawWord(const Row& row, JsonValue& value, const std::vector<std::string>& words) {
@@ -68,8 +68,8 @@ std::vector<std::string> wordsIn(const std::string& text) {
 // A kind of a variant that has one, by the word that chooses it.
 const Description* alternativeOf(const Key& key, const JsonValue& object) {
     const JsonValue* word = object.find(key.name);
-    for (const Description* one : key.objects)
-        if (word && word->text == one->name()) return one;
+    for (const Description* alternative : key.objects)
+        if (word && word->text == alternative->name()) return alternative;
     return nullptr;
 }
 
@@ -89,8 +89,8 @@ std::string freeName(const JsonValue& list, const std::string& wanted) {
 }  // namespace
 
 void setMember(JsonValue& object, const std::string& key, JsonValue value) {
-    if (JsonValue* there = findIn(object, key))
-        *there = std::move(value);
+    if (JsonValue* found = findIn(object, key))
+        *found = std::move(value);
     else
         object.add(key, std::move(value));
 }
@@ -143,9 +143,10 @@ static bool isPlace(const Key& key) {
 }
 
 void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& object) {
-    const auto add = [&](JsonValue& of, const std::string& name, const JsonValue& numbers) {
-        const std::vector<double> at = numbersOf(numbers);
-        if (at.size() == 3) places_.push_back({&of, name, {at[0], at[1], at[2]}});
+    const auto add = [&](JsonValue& parent, const std::string& name, const JsonValue& numbers) {
+        const std::vector<double> coordinates = numbersOf(numbers);
+        if (coordinates.size() == 3)
+            places_.push_back({&parent, name, {coordinates[0], coordinates[1], coordinates[2]}});
     };
     if (isPlace(key)) add(object, key.name, value);
     JsonValue* box = key.kind == Kind::box ? findIn(object, key.name) : nullptr;
@@ -155,16 +156,16 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
 
 // The row of a key changes what the object says of it, or whether it says anything.
 bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object) {
-    JsonValue* there = findIn(object, key.name);
+    JsonValue* found = findIn(object, key.name);
     JsonValue fresh = keys.usualValue(key);
     std::string label = inWords(key.name);
     const bool tree = key.kind == Kind::list || (key.kind == Kind::object && !key.member.optional);
-    if (tree && !there) fresh = key.kind == Kind::list ? JsonValue::makeArray() : JsonValue::makeObject();
+    if (tree && !found) fresh = key.kind == Kind::list ? JsonValue::makeArray() : JsonValue::makeObject();
     const bool mayBeEmpty = key.kind == Kind::text && !key.needed;
-    if (mayBeEmpty && !there) fresh = JsonValue::makeString("");
+    if (mayBeEmpty && !found) fresh = JsonValue::makeString("");
     // what has no value of its own where it is left out gets a box to tick
     if (!tree && !mayBeEmpty && !key.needed && keys.usualValue(key).kind == Json::null) {
-        bool says = there != nullptr;
+        bool says = found != nullptr;
         if (tick({label.c_str(), key.says.sentence.c_str()}, says)) {
             if (says)
                 setMember(object, key.name, smallestValue(key, text()));
@@ -172,16 +173,16 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
                 leaveOut(object, key.name);
             return true;
         }
-        if (!there) return false;
+        if (!found) return false;
         label.clear();
     }
-    JsonValue& value = there ? *there : fresh;
+    JsonValue& value = found ? *found : fresh;
     if (inList_) addPlaces(key, value, object);
     if (!(tree ? drawNode(key, value, false) : drawPresent(key, value, label))) return false;
     const bool empty = tree ? value.items.empty() && value.members.empty() : mayBeEmpty && value.text.empty();
     if (empty && !key.needed)
         leaveOut(object, key.name);
-    else if (!there)
+    else if (!found)
         setMember(object, key.name, std::move(fresh));
     return true;
 }
@@ -210,13 +211,13 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     case Kind::texts:
         return drawTexts(row, value);
     case Kind::color: {
-        const std::vector<double> now = numbersOf(value);
-        if (now.size() != 3) return false;
-        glm::dvec3 color(now[0], now[1], now[2]);
+        const std::vector<double> current = numbersOf(value);
+        if (current.size() != 3) return false;
+        glm::dvec3 color(current[0], current[1], current[2]);
         if (!pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, color)) return false;
         constexpr double rounding = 0.0005;  // of channels that were not touched
         for (int i = 0; i < 3; ++i)
-            if (std::abs(color[i] - now[size_t(i)]) <= rounding) color[i] = now[size_t(i)];
+            if (std::abs(color[i] - current[size_t(i)]) <= rounding) color[i] = current[size_t(i)];
         value = toJson(color);
         return true;
     }
@@ -233,8 +234,9 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     case Kind::object:
         return drawNode(key, value, true);
     case Kind::byHand:
-        if (key.form.of == Form::Of::text && key.form.lists.size() == 1) return drawTexts(row, value);
-        if (key.form.of == Form::Of::text && value.kind == Json::string) return drawText(key, value, label);
+        if (key.form.value == Form::Value::text && key.form.lists.size() == 1) return drawTexts(row, value);
+        if (key.form.value == Form::Value::text && value.kind == Json::string)
+            return drawText(key, value, label);
         if (value.kind == Json::object && key.objects.size() == 1) return drawNode(key, value, true);
         [[fallthrough]];
     default:
@@ -252,7 +254,8 @@ bool JsonRows::drawRotation(const Key& key, JsonValue& value, const std::string&
         angle = 2 * std::atan2(glm::length(imaginary), q[3]) * degrees;
     }
     if (const JsonValue* given = value.find("axis"))
-        if (const std::vector<double> at = numbersOf(*given); at.size() == 3) axis = {at[0], at[1], at[2]};
+        if (const std::vector<double> components = numbersOf(*given); components.size() == 3)
+            axis = {components[0], components[1], components[2]};
     if (const JsonValue* given = value.find("angle")) angle = given->number * degrees;
     const std::string axisLabel = label.empty() ? "axis" : label + ", axis";
     const char* sentence = key.says.sentence.c_str();
@@ -320,11 +323,11 @@ bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& lab
 
 // The word that says what an object is, and the keys that go with it.
 bool JsonRows::drawKind(const Key& key, JsonValue& object) {
-    const std::string now = object.find(key.name) ? object.find(key.name)->text : std::string();
+    const std::string current = object.find(key.name) ? object.find(key.name)->text : std::string();
     std::vector<std::string> words;
-    for (const Description* one : key.objects)
-        words.push_back(one->name());
-    const std::optional<size_t> chosen = choose(rowOf(key), now, words);
+    for (const Description* alternative : key.objects)
+        words.push_back(alternative->name());
+    const std::optional<size_t> chosen = choose(rowOf(key), current, words);
     if (chosen) {
         if (const Description* before = alternativeOf(key, object))
             for (const Key& own : before->keys())

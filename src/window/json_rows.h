@@ -29,7 +29,7 @@ class JsonRows {
     struct Place {
         JsonValue* object;  // that has the key; until something changes
         std::string key;
-        glm::dvec3 at;  // m
+        glm::dvec3 position;  // m
     };
     const std::vector<Place>& places() const { return places_; }
 

@@ -96,17 +96,17 @@ bool KeyRows::drawKeys(const Description& keys, void* object, const Owns& owns) 
 bool KeyRows::drawPresence(const Key& key, void* object) {
     const void* value = key.value(object);
     const bool endless = isEndless(key, value);
-    bool there = value && !endless;
+    bool given = value && !endless;
     const std::string label = inWords(key.name);
-    if (!tick({label.c_str(), key.says.sentence.c_str()}, there)) return false;
+    if (!tick({label.c_str(), key.says.sentence.c_str()}, given)) return false;
     const Slider slider = sliderOf(key, object);
     const double middle =
         slider.steep ? std::sqrt(slider.least * slider.most) : 0.5 * (slider.least + slider.most);
     if (key.kind == Kind::number && !key.member.optional)
-        *static_cast<double*>(key.place(object)) = there ? middle : std::numeric_limits<double>::infinity();
+        *static_cast<double*>(key.place(object)) = given ? middle : std::numeric_limits<double>::infinity();
     else if (key.kind == Kind::span)
-        *static_cast<glm::dvec2*>(key.place(object)) = glm::dvec2(there ? middle : 1e30);
-    else if (!there)
+        *static_cast<glm::dvec2*>(key.place(object)) = glm::dvec2(given ? middle : 1e30);
+    else if (!given)
         key.member.reset(key.place(object));
     else if (void* made = key.member.make(key.place(object)); key.kind == Kind::number)
         *static_cast<double*>(made) = middle;

@@ -87,7 +87,7 @@ class SceneChooser {
     void list(const std::string& folder);  // what lies in it or below; opens
     // A scene that was chosen cannot be opened, until one of its files changes.
     void refused(const std::string& file);
-    bool changed(double now) { return !refused_.changed(now).empty(); }  // such a file has; s
+    bool changed(double time) { return !refused_.changed(time).empty(); }  // such a file has; s
 
     // Which scene was chosen; empty: none. `mustChoose`: nothing runs yet, so that it cannot be closed.
     // `message`: above the list.

@@ -41,10 +41,10 @@ void OpenScene::follow() {
     const std::optional<PickedMolecule> picked = explanations->picked;
     explanations = std::make_unique<Explanations>(simulation().context(), running.scene, plan);
     explanations->settings = settings;
-    const bool there =
+    const bool exists =
         picked && picked->group < plan.groups.size() && picked->molecule < plan.groups[picked->group].count;
-    if (there) explanations->picked = picked;
-    if (!there) forget();
+    if (exists) explanations->picked = picked;
+    if (!exists) forget();
 }
 
 void OpenScene::saveIfAsked(bool end) {
@@ -84,9 +84,9 @@ static double pointRadius(const Group& group) {
 // Reads back the state of all groups.
 void OpenScene::pick(int height) {
     constexpr double near = 5;  // pixels, that a vertex may be missed by
-    const View now = view();
-    const Ray ray{now.eye, glm::normalize(underPointer(now) - now.eye)};
-    const double angle = near * now.fieldOfView / height;
+    const View current = view();
+    const Ray ray{current.eye, glm::normalize(underPointer(current) - current.eye)};
+    const double angle = near * current.fieldOfView / height;
     forget();
     double nearest = std::numeric_limits<double>::infinity();
     const Plan& plan = simulation().plan();
@@ -178,10 +178,10 @@ bool showMolecule(const PickedMolecule& picked, const std::string& group, const 
 
 void OpenScene::drawPicked(float left, float bottom) {
     if (!explanations->picked || !numbers) return;
-    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle)) {  // a ring
+    if (const auto center = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle)) {  // a ring
         ImDrawList& list = *ImGui::GetBackgroundDrawList();
-        list.AddCircle(*at, points(14) + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
-        list.AddCircle(*at, points(14), IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
+        list.AddCircle(*center, points(14) + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
+        list.AddCircle(*center, points(14), IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
     }
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];

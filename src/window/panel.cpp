@@ -93,8 +93,8 @@ void Panel::follow(const Scene& scene) {
         groups_.push_back(std::move(listed));
     }
     group_ = std::min(group_, int(groups_.size()) - 1);
-    const auto nameOf = [](const auto& one, size_t index) {
-        return one.name.empty() ? concat(kindName(*one.shape), " ", index + 1) : one.name;
+    const auto nameOf = [](const auto& item, size_t index) {
+        return item.name.empty() ? concat(kindName(*item.shape), " ", index + 1) : item.name;
     };
     fieldNames_.clear();
     for (size_t i = 0; i < scene.fields.size(); ++i)
@@ -166,9 +166,9 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
         return std::any_of(simulation.plan().groups.begin(), simulation.plan().groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
     };
-    const auto slider = [](bool there, const char* label, float& value, float least, float most,
+    const auto slider = [](bool enabled, const char* label, float& value, float least, float most,
                            ImGuiSliderFlags flags = 0) {
-        ImGui::BeginDisabled(!there);
+        ImGui::BeginDisabled(!enabled);
         ImGui::SliderFloat(label, &value, least, most, "x %.2f", flags);
         ImGui::EndDisabled();
     };
@@ -238,17 +238,17 @@ Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation
     ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);
     if (simulation.parameters.substeps > controls.substeps)
         ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);
-    const Path now = simulation.path().path;
-    path = now;
-    if (ImGui::RadioButton("fused", now != Path::pingPong)) path = Path::fused;
+    const Path current = simulation.path().path;
+    path = current;
+    if (ImGui::RadioButton("fused", current != Path::pingPong)) path = Path::fused;
     ImGui::SameLine();
-    if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
-    if (now == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
+    if (ImGui::RadioButton("ping-pong", current == Path::pingPong)) path = Path::pingPong;
+    if (current == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
     if (ImGui::Button("Measure error")) action = Action::measure;
     tip("A few molecules of the scene's start against the double-precision reference, with\n"
         "this solver and these substeps. The window waits for it some seconds.");
     if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
-    return path != now ? Action::switchPath : action;
+    return path != current ? Action::switchPath : action;
 }
 
 void Panel::drawView(Explanations& explanations, const Simulation& simulation) {

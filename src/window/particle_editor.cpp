@@ -36,20 +36,20 @@ glm::dvec4 colorAt(const std::vector<ColorKey>& keys, double age) {
 void drawBar(const std::vector<ColorKey>& keys) {
     constexpr int steps = 48;
     const float width = ImGui::GetContentRegionAvail().x, height = points(18), mark = points(4);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (int i = 0; i < steps; ++i) {
-        const float x0 = at.x + width * float(i) / steps, x1 = at.x + width * float(i + 1) / steps;
+        const float x0 = corner.x + width * float(i) / steps, x1 = corner.x + width * float(i + 1) / steps;
         const glm::dvec4 a = colorAt(keys, double(i) / steps), b = colorAt(keys, double(i + 1) / steps);
         for (int half = 0; half < 2; ++half) {
             const glm::dvec3 behind(half == 0 ? 0.02 : 0.5);
-            const float y0 = at.y + 0.5f * height * float(half), y1 = y0 + 0.5f * height;
+            const float y0 = corner.y + 0.5f * height * float(half), y1 = y0 + 0.5f * height;
             list.AddRectFilledMultiColor(ImVec2(x0, y0), ImVec2(x1, y1), shown(a, behind), shown(b, behind),
                                          shown(b, behind), shown(a, behind));
         }
     }
     for (const ColorKey& key : keys) {
-        const float x = at.x + width * float(key.age), y = at.y + height;
+        const float x = corner.x + width * float(key.age), y = corner.y + height;
         list.AddTriangleFilled(ImVec2(x - mark, y + 1.5f * mark), ImVec2(x, y - 0.5f * mark),
                                ImVec2(x + mark, y + 1.5f * mark), ImGui::GetColorU32(ImGuiCol_Text));
     }

@@ -184,21 +184,21 @@ bool RunningScene::unsaved() const {
 }
 
 void RunningScene::save() {
-    const std::string there = readFile(original_.file);
+    const std::string onDisk = readFile(original_.file);
     const bool changed = text_ != saved_;
-    if (changed && there != saved_)
+    if (changed && onDisk != saved_)
         throw Error(Location{original_.file}, "has changed since it was read: nothing was saved");
-    const std::string now = withEdits(changed ? text_ : there, original_, scene);
-    if (now != there) writeFile(original_.file, now);
-    text_ = saved_ = now;
+    const std::string edited = withEdits(changed ? text_ : onDisk, original_, scene);
+    if (edited != onDisk) writeFile(original_.file, edited);
+    text_ = saved_ = edited;
     copyEdits(scene.groups, original_.groups);
 }
 
 void RunningScene::revert() {
     if (text_ != saved_) {
-        const std::string there = readFile(original_.file);
-        go(there, undo_);
-        saved_ = there;
+        const std::string onDisk = readFile(original_.file);
+        go(onDisk, undo_);
+        saved_ = onDisk;
         return;
     }
     copyEdits(original_.groups, scene.groups);
@@ -245,9 +245,9 @@ std::vector<std::string> RunningScene::take(const std::string& text) {
 
 // Takes a text and adds the one that it leaves behind to `passed`.
 void RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
-    std::string now = this->text();
+    std::string previous = this->text();
     take(text);
-    passed.push_back(std::move(now));
+    passed.push_back(std::move(previous));
 }
 
 // Returns `text`, which was read as `before`, with what differs in `after`.
@@ -258,9 +258,9 @@ static std::string withJson(const std::string& text, const JsonValue& before, co
 }
 
 void RunningScene::change(const JsonValue& after) {
-    const std::string now = text(), then = withJson(now, parseJson(now, original_.file), after);
-    if (then == now) return;
-    go(then, undo_);
+    const std::string current = text(), next = withJson(current, parseJson(current, original_.file), after);
+    if (next == current) return;
+    go(next, undo_);
     redo_.clear();
 }
 
@@ -271,8 +271,8 @@ void RunningScene::add(const std::string& file) {
     const bool molecule = fs::path(file).extension() == ".json";
     JsonValue root = json();
     const char* list = molecule ? "groups" : "models";
-    const JsonValue* there = root.find(list);
-    JsonValue longer = there ? *there : JsonValue::makeArray();
+    const JsonValue* existing = root.find(list);
+    JsonValue longer = existing ? *existing : JsonValue::makeArray();
     longer.items.push_back(molecule ? smallestGroup(longer, name) : object(key("file", name)));
     setMember(root, list, std::move(longer));
     change(root);
@@ -300,41 +300,41 @@ std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const
         theirs.solver.kind != *choices.solver)
         out.emplace_back("$.solver.method");
     for (const auto& [name, choice] : choices.groups) {
-        const Group *before = named(original_, name), *now = named(theirs, name);
+        const Group *before = named(original_, name), *after = named(theirs, name);
         if (!before || !choice.any()) continue;
-        if (!now) {
+        if (!after) {
             out.push_back(concat("the group \"", name, "\""));
             continue;
         }
-        if (choice.count && now->count != before->count && now->count != *choice.count)
+        if (choice.count && after->count != before->count && after->count != *choice.count)
             out.push_back(concat("count of \"", name, "\""));
-        if (!choice.molecule.empty() && now->molecule.file != before->molecule.file)
+        if (!choice.molecule.empty() && after->molecule.file != before->molecule.file)
             out.push_back(concat("molecule of \"", name, "\""));
-        const Material &was = before->molecule.material, &is = now->molecule.material;
+        const Material &previous = before->molecule.material, &current = after->molecule.material;
         const auto look = [&, &group = name](const std::optional<double>& chosen, double old, double fresh,
                                              const char* what) {
             if (chosen && old != fresh && fresh != *chosen)
                 out.push_back(concat(what, " of \"", group, "\""));
         };
-        look(choice.roughness, was.roughness, is.roughness, "roughness");
-        look(choice.translucency, was.translucency, is.translucency, "translucency");
-        look(choice.opacity, was.opacity, is.opacity, "opacity");
+        look(choice.roughness, previous.roughness, current.roughness, "roughness");
+        look(choice.translucency, previous.translucency, current.translucency, "translucency");
+        look(choice.opacity, previous.opacity, current.opacity, "opacity");
     }
     return out;
 }
 
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
-    const std::string there = readFile(original_.file);
-    const bool changed = there != saved_;  // else another file has, which the scene names
+    const std::string onDisk = readFile(original_.file);
+    const bool changed = onDisk != saved_;  // else another file has, which the scene names
     Reloaded out;
-    std::string both = text();
+    std::string combined = text();
     if (changed) {
-        const JsonValue theirs = parseJson(there, original_.file);
-        both = withJson(there, theirs,
-                        merged(parseJson(saved_, original_.file), parseJson(both, original_.file), theirs,
-                               prefer.value_or(Prefer::mine), "$", out.conflicts));
+        const JsonValue theirs = parseJson(onDisk, original_.file);
+        combined = withJson(onDisk, theirs,
+                            merged(parseJson(saved_, original_.file), parseJson(combined, original_.file),
+                                   theirs, prefer.value_or(Prefer::mine), "$", out.conflicts));
     }
-    Scene fresh = read(both);
+    Scene fresh = read(combined);
     const std::vector<std::string> choicesToo = changedChoices(fresh);
     out.conflicts.insert(out.conflicts.end(), choicesToo.begin(), choicesToo.end());
     if (!out.conflicts.empty() && !prefer) return out;
@@ -343,10 +343,10 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     if (changed) {  // the texts are of before: going back to one would take the file's change back as well
         undo_.clear();
         redo_.clear();
-        saved_ = text_ = there;
+        saved_ = text_ = onDisk;
     }
-    if (both != text_) undo_.push_back(text_);
-    text_ = both;
+    if (combined != text_) undo_.push_back(text_);
+    text_ = combined;
     return out;
 }
 

@@ -122,8 +122,8 @@ class HotReload {
     // The files of this scene, from now on. `fresh`: another scene than before.
     void follow(const RunningScene& running, bool fresh);
 
-    // Looks and does what is to be done; `now`: s. True: the scene was built anew.
-    bool update(RunningScene& running, double now);
+    // Looks and does what is to be done; `time`: s. True: the scene was built anew.
+    bool update(RunningScene& running, double time);
 
     // The window itself wrote a file of the scene's.
     void accept(const std::string& file) { watch_.accept(file); }

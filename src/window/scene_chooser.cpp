@@ -49,17 +49,17 @@ const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
 }
 
 bool SceneChooser::drawRow(const ListedScene& scene) {
-    const ImVec2 size(points(pictureSize.x), points(pictureSize.y)), at = ImGui::GetCursorScreenPos();
+    const ImVec2 size(points(pictureSize.x), points(pictureSize.y)), corner = ImGui::GetCursorScreenPos();
     const bool chosen = ImGui::Selectable("##scene", false, ImGuiSelectableFlags_None, ImVec2(0, size.y));
     tip(scene.file.c_str());
     const ImVec2 next = ImGui::GetCursorPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 end(at.x + size.x, at.y + size.y);
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
     if (const gpu::Texture* picture = pictureOf(scene.file))
-        list.AddImage(ImTextureID(intptr_t(picture->id())), at, end);
+        list.AddImage(ImTextureID(intptr_t(picture->id())), corner, end);
     else
-        list.AddRectFilled(at, end, IM_COL32(70, 76, 82, 255));
-    ImGui::SetCursorScreenPos(ImVec2(end.x + points(10), at.y));
+        list.AddRectFilled(corner, end, IM_COL32(70, 76, 82, 255));
+    ImGui::SetCursorScreenPos(ImVec2(end.x + points(10), corner.y));
     ImGui::BeginGroup();
     ImGui::TextUnformatted(scene.name.c_str());
     const std::string shown =

@@ -24,8 +24,8 @@ constexpr double countEvery = 0.25;  // s: each reading waits for the GPU
 // 12345678 as 12,345,678.
 std::string grouped(uint64_t number) {
     std::string out = std::to_string(number);
-    for (int at = int(out.size()) - 3; at > 0; at -= 3)
-        out.insert(size_t(at), ",");
+    for (int position = int(out.size()) - 3; position > 0; position -= 3)
+        out.insert(size_t(position), ",");
     return out;
 }
 
@@ -167,13 +167,13 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
 ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view) {
     if (molecules_.empty()) molecules_ = moleculesFor(running.scene.file);
     if (!draft_) {
-        const JsonValue now = running.json();
-        draft_ = Draft{now, now};
+        const JsonValue current = running.json();
+        draft_ = Draft{current, current};
     } else if (std::exchange(draft_->stale, false)) {
         std::vector<std::string> conflicts;
-        const JsonValue now = running.json();
-        draft_->json = merged(draft_->base, draft_->json, now, Prefer::mine, "$", conflicts);
-        draft_->base = now;
+        const JsonValue current = running.json();
+        draft_->json = merged(draft_->base, draft_->json, current, Prefer::mine, "$", conflicts);
+        draft_->base = current;
     }
     Action action = Action::none;
     const auto button = [&](const char* label, bool may, Action asks, const char* says) {
@@ -192,7 +192,7 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
     ImGui::SameLine();
     if (ImGui::Button("Keep this view")) {
         JsonValue camera = JsonValue::makeObject();
-        if (const JsonValue* there = draft_->json.find("camera")) camera = *there;
+        if (const JsonValue* given = draft_->json.find("camera")) camera = *given;
         setMember(camera, "eye", toJson(rounded(view.eye)));
         setMember(camera, "target", toJson(rounded(view.target)));
         setMember(draft_->json, "camera", std::move(camera));
@@ -229,18 +229,18 @@ bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const V
     bool moved = false;
     if (held_ && (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || *held_ >= places.size())) held_.reset();
     for (size_t i = 0; i < places.size(); ++i) {
-        const std::optional<ImVec2> at = projector.place(places[i].at);
-        if (!at) continue;
-        const bool near = std::hypot(io.MousePos.x - at->x, io.MousePos.y - at->y) < 1.5f * radius;
+        const std::optional<ImVec2> center = projector.place(places[i].position);
+        if (!center) continue;
+        const bool near = std::hypot(io.MousePos.x - center->x, io.MousePos.y - center->y) < 1.5f * radius;
         if (near && !held_ && !io.WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held_ = i;
         const bool lit = held_ ? *held_ == i : near && !io.WantCaptureMouse;
-        list.AddCircle(*at, radius, IM_COL32(0, 0, 0, 160), 32, points(4));
-        list.AddCircle(*at, radius, lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 190, 70, 255), 32,
+        list.AddCircle(*center, radius, IM_COL32(0, 0, 0, 160), 32, points(4));
+        list.AddCircle(*center, radius, lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 190, 70, 255), 32,
                        points(2));
-        list.AddText(ImVec2(at->x + 1.4f * radius, at->y - radius), IM_COL32(255, 255, 255, 230),
+        list.AddText(ImVec2(center->x + 1.4f * radius, center->y - radius), IM_COL32(255, 255, 255, 230),
                      inWords(places[i].key).c_str());
         if (!may || held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
-        const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].at);
+        const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].position);
         setMember(*places[i].object, places[i].key, toJson(rounded(to)));
         moved = true;
     }
@@ -288,10 +288,10 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
 }
 
 void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planGroup) {
-    const double now = ImGui::GetTime();
-    if (edited.countedAt < 0 || now - edited.countedAt > countEvery) {
+    const double time = ImGui::GetTime();
+    if (edited.countedAt < 0 || time - edited.countedAt > countEvery) {
         edited.counts = simulation.lifeCounts(planGroup);
-        edited.countedAt = now;
+        edited.countedAt = time;
     }
     const LifeCounts& counts = edited.counts;
     const std::string live =

@@ -43,10 +43,11 @@ double valueAt(const Series& series, size_t fromEnd) {
 }
 
 void drawPlot(const std::vector<Series>& all) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = points(64);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, ImVec2(at.x + width, at.y + height), ImGui::GetColorU32(ImGuiCol_FrameBg));
+    list.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height),
+                       ImGui::GetColorU32(ImGuiCol_FrameBg));
     std::vector<double> totals(shownFrames, 0);
     for (const Series& series : all)
         for (size_t i = 0; i < shownFrames; ++i)
@@ -58,19 +59,19 @@ void drawPlot(const std::vector<Series>& all) {
     const double top = std::max(sorted.empty() ? 0 : 1.25 * sorted[(sorted.size() - 1) * 95 / 100], 1e-5);
     const float step = width / float(shownFrames);
     for (size_t i = 0; i < shownFrames; ++i) {
-        const float right = at.x + width - step * float(i);
+        const float right = corner.x + width - step * float(i);
         double below = 0;
         for (size_t s = 0; s < all.size(); ++s) {
             const double value = std::min(valueAt(all[s], i), top - below);
             if (!(value > 0)) continue;
-            const auto y = [&](double v) { return at.y + height * float(1 - v / top); };
+            const auto y = [&](double v) { return corner.y + height * float(1 - v / top); };
             list.AddRectFilled(ImVec2(right - step, y(below + value)), ImVec2(right, y(below)), colorOf(s));
             below += value;
         }
     }
     const std::string scale =
         concat(top < 0.0995 ? std::round(1e5 * top) / 100 : std::round(1e3 * top), " ms");
-    list.AddText(ImVec2(at.x + points(4), at.y + points(2)), ImGui::GetColorU32(ImGuiCol_Text),
+    list.AddText(ImVec2(corner.x + points(4), corner.y + points(2)), ImGui::GetColorU32(ImGuiCol_Text),
                  scale.c_str());
     ImGui::InvisibleButton("times", ImVec2(width, height));
     if (ImGui::IsItemHovered())
@@ -91,10 +92,10 @@ void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing
     for (size_t s = 0; s < all.size(); ++s) {
         const gpu::PassTime& pass = all[s].time;
         ImGui::TableNextColumn();
-        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
         const float side = ImGui::GetFontSize() * 0.6f, down = ImGui::GetFontSize() * 0.25f;
-        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + down),
-                                                  ImVec2(at.x + side, at.y + down + side), colorOf(s));
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            ImVec2(corner.x, corner.y + down), ImVec2(corner.x + side, corner.y + down + side), colorOf(s));
         ImGui::Dummy(ImVec2(side, 0));
         ImGui::SameLine();
         ImGui::TextUnformatted(pass.name.c_str());

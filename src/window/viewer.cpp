@@ -85,14 +85,14 @@ class Viewer : public WindowLoop {
 
     void drawPicture() override {
         if (open_) {
-            if (open_->reload.update(open_->running, now())) takeReloaded();
+            if (open_->reload.update(open_->running, wallTime())) takeReloaded();
             drawScene();
         } else {
             gpu::Framebuffer::bindDefault(width(), height());
             glClearColor(0.1f, 0.13f, 0.12f, 1);
             glClear(GL_COLOR_BUFFER_BIT);
         }
-        if (chooser_.changed(now()) && chooser_.open) listScenes();
+        if (chooser_.changed(wallTime()) && chooser_.open) listScenes();
     }
 
     void drawInterface() override {

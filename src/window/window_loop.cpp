@@ -77,7 +77,7 @@ void WindowLoop::saveScreenshot() const {
     std::cout << "screenshot: " << printable(options_.screenshot) << "\n";
 }
 
-double WindowLoop::now() {
+double WindowLoop::wallTime() {
     return glfwGetTime();
 }
 

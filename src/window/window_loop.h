@@ -42,7 +42,7 @@ class WindowLoop {
     int height() const { return height_; }                 // pixels
     int shown() const { return shown_; }                   // frames
     double frameSeconds() const { return frameSeconds_; }  // wall clock, smoothed; 0: not known yet
-    static double now();                                   // s
+    static double wallTime();                              // s
 
     void close();                                         // after this frame, where mayClose() agrees
     void entitle(const std::string& file, bool unsaved);  // by the name of a file, which may lie in a folder

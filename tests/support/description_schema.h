@@ -64,14 +64,14 @@ inline JsonValue textSchema(bool notEmpty) {
 }
 
 inline JsonValue schemaOf(const Form& form, const Key& key) {
-    using Of = Form::Of;
+    using Value = Form::Value;
     if (!form.constant.empty()) return object({{"const", text(form.constant)}});
     JsonValue out;
-    if (form.of == Of::text) out = textSchema(form.notEmpty);
-    if (form.of == Of::number) out = number("number", form.range);
-    if (form.of == Of::whole) out = number("integer", form.range);
-    if (form.of == Of::keys) out = schemaOf(*key.objects.at(0));
-    if (form.of == Of::numberOrKeys) {
+    if (form.value == Value::text) out = textSchema(form.notEmpty);
+    if (form.value == Value::number) out = number("number", form.range);
+    if (form.value == Value::whole) out = number("integer", form.range);
+    if (form.value == Value::keys) out = schemaOf(*key.objects.at(0));
+    if (form.value == Value::numberOrKeys) {
         JsonValue either = JsonValue::makeArray();
         either.items = {number("number", form.range), schemaOf(*key.objects.at(0))};
         out = object({{"anyOf", either}});

@@ -12,11 +12,11 @@ namespace {
 
 BenchResult result(const char* group, const char* label, Subject subject, int count, double seconds) {
     BenchResult out;
-    out.one.group = group;
-    out.one.label = label;
-    out.one.molecule = "quad";
-    out.one.count = count;
-    out.one.subject = subject;
+    out.benchCase.group = group;
+    out.benchCase.label = label;
+    out.benchCase.molecule = "quad";
+    out.benchCase.count = count;
+    out.benchCase.subject = subject;
     out.frame = {seconds, seconds * 1.25, 10};
     out.stateBytes = size_t(count) * 208;
     out.movedBytes = size_t(count) * 200;
@@ -73,7 +73,7 @@ TEST_CASE("the benchmark's scenes compile at their step", "[bench]") {
     CHECK(molecules.cloth.vertices.size() == 64);
     for (BenchCase one : benchCases(false)) {
         one.count = 3;
-        const Molecule& molecule = molecules.of(one.molecule);
+        const Molecule& molecule = molecules.named(one.molecule);
         CAPTURE(one.name());
         CHECK(fitsBaseline(molecule));
         const Plan plan = compile(benchScene(one, molecule));
@@ -159,10 +159,10 @@ TEST_CASE("ratios compare a case with its own group", "[bench]") {
     CHECK(ratiosOf(all[2], all).shareOfCopy.value() == Approx(0.5));  // of the processor's
     CHECK_FALSE(ratiosOf(all[4], all).avx512);
     CHECK_FALSE(ratiosOf(all[6], all).avx512);  // alone in its group
-    all[0].one.wind = Wind::gusts;
+    all[0].benchCase.wind = Wind::gusts;
     CHECK_FALSE(ratiosOf(all[0], all).avx512);
-    all[0].one.wind = Wind::uniform;
-    all[0].one.substeps = 16;
+    all[0].benchCase.wind = Wind::uniform;
+    all[0].benchCase.substeps = 16;
     CHECK_FALSE(ratiosOf(all[0], all).avx512);
     CHECK_FALSE(ratiosOf(all[0], all).pingPong);
     BenchResult out = result("131,072 quads", "x", Subject::fused, 131072, 0);

@@ -66,7 +66,7 @@ const Description& describe(const Thing*) {
     static const auto rule = [](const Thing& thing, const Where& where) {
         for (size_t i = 0; i < thing.legs.size(); ++i)
             if (thing.legs[i].length > thing.span.y)
-                throw Error(where.in("legs", i).at("length"), "a leg is longer than the span");
+                throw Error(where.in("legs", i).locate("length"), "a leg is longer than the span");
     };
     static const Description it =
         Describe<Thing>("thing", "A thing.")

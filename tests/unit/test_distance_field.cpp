@@ -77,12 +77,12 @@ TEST_CASE("closest points are exact, however the mesh lies", "[distanceField]") 
         const ClosestPoints closest(mesh);
         double worst = 0;
         for (const glm::dvec3& x : pointsAround(mesh, 400)) {
-            const ClosestPoint found = closest.at(x);
+            const ClosestPoint found = closest.find(x);
             worst = std::max(worst, std::abs(found.distance - bruteDistance(mesh, x)));
             CHECK(glm::distance(found.point, x) == Approx(found.distance).epsilon(1e-6).margin(1e-9 * scale));
             // a bound that holds changes nothing
-            CHECK(closest.at(x, found.distance * 1.01 + 1e-9 * scale).distance == found.distance);
-            CHECK(closest.at(x, found.distance * 0.9).triangle ==
+            CHECK(closest.find(x, found.distance * 1.01 + 1e-9 * scale).distance == found.distance);
+            CHECK(closest.find(x, found.distance * 0.9).triangle ==
                   (found.distance > 1e-5 * scale ? -1 : found.triangle));
         }
         INFO("scale " << scale);

@@ -153,7 +153,7 @@ void load(GridField& field, const Where& where) {
     const TimedFiles found = filesOf(source, where);
     const std::string ending = lowerExtension(found.files[0]);
     if (ending != ".fga" && ending != ".vf" && ending != ".vti" && ending != ".raw")
-        throw Error(where.at("file"),
+        throw Error(where.locate("file"),
                     "expected a vector field as .fga, .vf, .vti or .raw, found \"" + found.files[0] + "\"");
     std::string layout;
     if (ending == ".raw") {
@@ -161,31 +161,31 @@ void load(GridField& field, const Where& where) {
         layout = needFile(where, "layout", source.layout);
     }
     if (where.given("origin") && source.bounds)
-        throw Error(where.at("origin"), "\"bounds\" says where the field lies: \"origin\" has no effect");
+        throw Error(where.locate("origin"), "\"bounds\" says where the field lies: \"origin\" has no effect");
     field.times = found.times;
     field.repeats = source.sequence && source.sequence->repeats;
     for (const std::string& file : found.files) {
         addFrame(field, readFieldFile(file, source, layout), file);
         if (field.cells() * found.files.size() > size_t(maxFieldCells))
-            throw Error(where.at("sequence"), found.files.size(), " frames of ", field.cells(),
+            throw Error(where.locate("sequence"), found.files.size(), " frames of ", field.cells(),
                         " cells are more than the ", maxFieldCells, " cells (2^24) that a field may have");
     }
 }
 
 void checkGrid(const GridField& grid, const Where& where) {
-    countCells(grid.resolution, where.at("resolution"));
+    countCells(grid.resolution, where.locate("resolution"));
     const size_t frames = std::max<size_t>(1, grid.times.size());
     if (grid.values.size() != grid.cells() * frames)
-        throw Error(where.at("values"), "expected ", grid.cells() * frames, " values, one a cell",
+        throw Error(where.locate("values"), "expected ", grid.cells() * frames, " values, one a cell",
                     frames > 1 ? " and frame" : "", ", found ", grid.values.size());
-    checkBox({grid.low, grid.high}, false, where.at("high"));
+    checkBox({grid.low, grid.high}, false, where.locate("high"));
     for (const glm::vec3& value : grid.values)
         for (int c = 0; c < 3; ++c)
             if (!(std::abs(value[c]) <= largestNumber))
-                throw Error(where.at("values"), "expected finite numbers within single precision");
-    if (grid.times.size() == 1) throw Error(where.at("times"), "expected at least two times, found 1");
+                throw Error(where.locate("values"), "expected finite numbers within single precision");
+    if (grid.times.size() == 1) throw Error(where.locate("times"), "expected at least two times, found 1");
     for (size_t i = 1; i < grid.times.size(); ++i)
-        checkTimes(grid.times[i - 1], grid.times[i], where.at("times"));
+        checkTimes(grid.times[i - 1], grid.times[i], where.locate("times"));
 }
 
 }  // namespace
@@ -194,9 +194,9 @@ const Description& describe(const FileSequence*) {
     using F = FileSequence;
     static const auto rule = [](const F& sequence, const Where& where) {
         if (sequence.frameRate && where.given("times"))
-            throw Error(where.at("frameRate"), "expected either \"frameRate\" or \"times\", found both");
+            throw Error(where.locate("frameRate"), "expected either \"frameRate\" or \"times\", found both");
     };
-    static const Description it =
+    static const Description description =
         Describe<F>("sequence", "Numbered files as frames in time.")
             .key("first", &F::first, {"", "The first number.", Range::atLeast(0)})
             .usually("the lowest in the folder")
@@ -206,17 +206,17 @@ const Description& describe(const FileSequence*) {
             .key("frameRate", &F::frameRate, {"Hz", "Files a second; required without `times`.", aboveZero()})
             .key("start", &F::start, {"s", "The time of the first file."})
             .only("frameRate", {})
-            .byHand("times", {.of = Form::Of::number, .lists = {{.least = 2}}},
+            .byHand("times", {.value = Form::Value::number, .lists = {{.least = 2}}},
                     {"list of numbers, s", "The times of the files, rising, instead of `frameRate`."},
                     readTimes)
             .key("repeats", &F::repeats, {"", "Whether the first file follows the last; else the ends hold."})
             .rule(rule, R"({"oneOf": [{"required": ["frameRate"]}, {"required": ["times"]}]})");
-    return it;
+    return description;
 }
 
 static const Description& describe(const GridSource*) {
     using F = GridSource;
-    static const Description it =
+    static const Description description =
         Describe<F>("source", "Files that a grid is read from.")
             .key("file", &F::file,
                  {"the name of a .fga, .vf, .vti or .raw file",
@@ -238,11 +238,11 @@ static const Description& describe(const GridSource*) {
                  {"m/s", "Metres a second a unit of the file's velocities."})
             .usually("as `scale`")
             .key("origin", &F::origin, {"m", "What is added to the file's bounds."});
-    return it;
+    return description;
 }
 
 const Description& describe(const GridField*) {
-    static const Description it =
+    static const Description description =
         Describe<GridField>("grid",
                             "Velocities from a file or from numbered files, trilinear between cell centres.")
             .keysOf(&GridField::source)
@@ -250,7 +250,7 @@ const Description& describe(const GridField*) {
                   {"", "What is beyond the bounds: the border's value, or the grid again."})
             .derive(load)
             .rule(checkGrid);
-    return it;
+    return description;
 }
 
 }  // namespace shoal

@@ -66,9 +66,9 @@ std::vector<int> numbersIn(const Pattern& pattern) {
 std::vector<double> timesOf(const FileSequence& sequence, size_t count, const Where& where) {
     std::vector<double> times = sequence.times;
     if (where.given("times") && times.size() != count)
-        throw Error(where.at("times"), "expected ", count, " times, one a file, found ", times.size());
+        throw Error(where.locate("times"), "expected ", count, " times, one a file, found ", times.size());
     for (size_t i = 1; i < times.size(); ++i)
-        checkTimes(times[i - 1], times[i], where.at("times"));
+        checkTimes(times[i - 1], times[i], where.locate("times"));
     if (!times.empty()) return times;
     where.require("frameRate");
     for (size_t i = 0; i < count; ++i)
@@ -80,7 +80,8 @@ std::vector<std::string> oneFile(const GridSource& source, const Where& where) {
     std::error_code code;
     if (source.file.find('#') != std::string::npos &&
         !fs::exists(fs::path(where.here().file).parent_path() / source.file, code))
-        throw Error(where.at("file"), "numbered files need \"sequence\", with their \"frameRate\" at least");
+        throw Error(where.locate("file"),
+                    "numbered files need \"sequence\", with their \"frameRate\" at least");
     return {needFile(where, "file", source.file)};
 }
 
@@ -98,17 +99,17 @@ TimedFiles filesOf(const GridSource& source, const Where& where) {
     const std::optional<Pattern> pattern =
         patternOf((fs::path(where.here().file).parent_path() / source.file).lexically_normal());
     if (!pattern)
-        throw Error(where.at("file"), "expected one run of # in the file's name, in place of the number");
+        throw Error(where.locate("file"), "expected one run of # in the file's name, in place of the number");
     std::vector<int> numbers;
     if (!sequence.first || !sequence.last) {
         numbers = numbersIn(*pattern);
         if (numbers.empty())
-            throw Error(where.at("file"), "no such files: " + pattern->file(0) + " and so on");
+            throw Error(where.locate("file"), "no such files: " + pattern->file(0) + " and so on");
     }
     const int first = sequence.first ? *sequence.first : numbers.front(),
               last = sequence.last ? *sequence.last : numbers.back(), step = sequence.step;
     if (last <= first || (last - first) % step != 0 || (last - first) / step >= mostFiles)
-        throw Error(inner.given("last") ? inner.at("last") : inner.here(), "expected 2 to ", mostFiles,
+        throw Error(inner.given("last") ? inner.locate("last") : inner.here(), "expected 2 to ", mostFiles,
                     " files from first to last, found numbers from ", first, " to ", last, " in steps of ",
                     step);
     TimedFiles out;
@@ -116,7 +117,7 @@ TimedFiles filesOf(const GridSource& source, const Where& where) {
         out.files.push_back(pattern->file(number));
         std::error_code code;
         if (!fs::is_regular_file(out.files.back(), code))
-            throw Error(where.at("file"), "no such file: ", out.files.back(), ", of the numbers ", first,
+            throw Error(where.locate("file"), "no such file: ", out.files.back(), ", of the numbers ", first,
                         " to ", last);
         if (number > last - step) break;  // the next might overflow
     }

@@ -9,9 +9,9 @@ namespace shoal {
 const Description& describe(const RawLayout*) {
     using R = RawLayout;
     static const auto rule = [](const R& layout, const Where& where) {
-        countCells(glm::dvec3(layout.resolution), where.at("resolution"));
+        countCells(glm::dvec3(layout.resolution), where.locate("resolution"));
     };
-    static const Description it =
+    static const Description description =
         Describe<R>("layout", "How the numbers of a .raw vector field lie.")
             .format("shoal-field-1")
             .key("resolution", &R::resolution,
@@ -30,7 +30,7 @@ const Description& describe(const RawLayout*) {
             .word("order", &R::zFastest, {"xFastest", "zFastest"}, {"", "Which way neighbouring cells lie."})
             .key("skip", &R::skip, {"bytes", "What stands before the first number.", Range::atLeast(0)})
             .rule(rule, R"({"properties": {"resolution": {"items": {"minimum": 1}}}})");
-    return it;
+    return description;
 }
 
 RawLayout parseRawLayout(const std::string& text, const std::string& file) {

@@ -50,23 +50,23 @@ class Reader {
         root_ = xml_.child("VTKFile");
         if (!root_) throw Error(Location{file, 1, 1, {}}, "expected a file of VTK's, with the tag VTKFile");
         const std::string type = root_.attribute("type").value();
-        if (type != "ImageData") throw at(root_, "expected type=\"ImageData\", found \"" + type + "\"");
+        if (type != "ImageData") throw errorAt(root_, "expected type=\"ImageData\", found \"" + type + "\"");
         encoding_.bigEndian = choice(root_, "byte_order", "LittleEndian", "BigEndian");
         encoding_.longHeader = choice(root_, "header_type", "UInt32", "UInt64");
         const std::string compressor = root_.attribute("compressor").value();
         encoding_.zlib = compressor == "vtkZLibDataCompressor";
         if (!compressor.empty() && !encoding_.zlib)
-            throw at(root_,
-                     "expected data as they are or compressed by vtkZLibDataCompressor, found " + compressor);
+            throw errorAt(root_, "expected data as they are or compressed by vtkZLibDataCompressor, found " +
+                                     compressor);
     }
 
     FileGrid grid(const std::string& name) {
         const pugi::xml_node image = need(root_, "ImageData");
         const std::array<double, 6> whole = numbers<6>(image, "WholeExtent", nullptr);
         const pugi::xml_node piece = need(image, "Piece");
-        if (piece.next_sibling("Piece")) throw at(image, "expected one piece, found several");
+        if (piece.next_sibling("Piece")) throw errorAt(image, "expected one piece, found several");
         if (numbers<6>(piece, "Extent", image.attribute("WholeExtent").value()) != whole)
-            throw at(piece, "expected a piece that is the whole extent");
+            throw errorAt(piece, "expected a piece that is the whole extent");
         bool ofPoints = true;
         const pugi::xml_node array = find(piece, name, ofPoints);
         FileGrid out = place(image, whole, ofPoints);
@@ -80,11 +80,13 @@ class Reader {
     Location where(const pugi::xml_node& node) const {
         return locate(text_, size_t(std::max<std::ptrdiff_t>(node.offset_debug(), 0)), file_);
     }
-    Error at(const pugi::xml_node& node, const std::string& message) const { return {where(node), message}; }
+    Error errorAt(const pugi::xml_node& node, const std::string& message) const {
+        return {where(node), message};
+    }
 
     pugi::xml_node need(const pugi::xml_node& parent, const char* tag) const {
         const pugi::xml_node node = parent.child(tag);
-        if (!node) throw at(parent, concat("expected the tag ", tag));
+        if (!node) throw errorAt(parent, concat("expected the tag ", tag));
         return node;
     }
 
@@ -92,8 +94,8 @@ class Reader {
     bool choice(const pugi::xml_node& node, const char* key, const char* first, const char* second) const {
         const std::string word = node.attribute(key).as_string(first);
         if (word != first && word != second)
-            throw at(node,
-                     concat("expected ", key, "=\"", first, "\" or \"", second, "\", found \"", word, "\""));
+            throw errorAt(
+                node, concat("expected ", key, "=\"", first, "\" or \"", second, "\", found \"", word, "\""));
         return word == second;
     }
 
@@ -101,7 +103,7 @@ class Reader {
     std::array<double, N> numbers(const pugi::xml_node& node, const char* key, const char* fallback) const {
         const pugi::xml_attribute attribute = node.attribute(key);
         const char* value = attribute ? attribute.value() : fallback;
-        if (value == nullptr) throw at(node, concat("expected the attribute ", key));
+        if (value == nullptr) throw errorAt(node, concat("expected the attribute ", key));
         const std::string text = value;  // stays as long as the scanner reads it
         std::array<double, N> out{};
         size_t found = 0;
@@ -110,9 +112,9 @@ class Reader {
             for (double number; scanner.next(number); ++found)
                 if (found < N) out[found] = number;
         } catch (const Error& error) {
-            throw at(node, concat(key, ": ", error.message()));
+            throw errorAt(node, concat(key, ": ", error.message()));
         }
-        if (found != N) throw at(node, concat("expected ", N, " numbers as ", key, ", found ", found));
+        if (found != N) throw errorAt(node, concat("expected ", N, " numbers as ", key, ", found ", found));
         return out;
     }
 
@@ -129,8 +131,8 @@ class Reader {
                 const bool three = array.attribute("NumberOfComponents").as_int(1) == 3;
                 if (name.empty() ? three && own == active && !active.empty() : own == name) {
                     if (!three)
-                        throw at(array, concat("expected three components of \"", own, "\", found ",
-                                               array.attribute("NumberOfComponents").as_string("1")));
+                        throw errorAt(array, concat("expected three components of \"", own, "\", found ",
+                                                    array.attribute("NumberOfComponents").as_string("1")));
                     ofPoints = points;
                     return array;
                 }
@@ -140,10 +142,10 @@ class Reader {
             }
         }
         if (!name.empty())
-            throw at(piece, concat("has no array \"", name,
-                                   "\"; of three components: ", names.empty() ? "none" : names));
-        if (vectors.empty()) throw at(piece, "has no array of three components");
-        if (vectors.size() > 1) throw at(piece, "expected \"array\" to say which of " + names);
+            throw errorAt(piece, concat("has no array \"", name,
+                                        "\"; of three components: ", names.empty() ? "none" : names));
+        if (vectors.empty()) throw errorAt(piece, "has no array of three components");
+        if (vectors.size() > 1) throw errorAt(piece, "expected \"array\" to say which of " + names);
         ofPoints = vectors[0].second;
         return vectors[0].first;
     }
@@ -157,18 +159,18 @@ class Reader {
             const double first = extent[size_t(2 * i)], last = extent[size_t(2 * i + 1)],
                          start = origin[size_t(i)];
             if (first != std::floor(first) || last != std::floor(last) || !(first <= last))
-                throw at(image,
-                         concat("expected an extent of whole numbers in order, found ", first, " to ", last));
+                throw errorAt(image, concat("expected an extent of whole numbers in order, found ", first,
+                                            " to ", last));
             // A flat image is one layer, of points or of cells, about its plane.
             const bool flat = first == last, centred = ofPoints || flat;
             const double step = flat && spacing[size_t(i)] == 0 ? thinnest(spacing) : spacing[size_t(i)];
-            if (!(step > 0)) throw at(image, concat("expected a spacing above 0, found ", step));
+            if (!(step > 0)) throw errorAt(image, concat("expected a spacing above 0, found ", step));
             size[i] = last - first + (centred ? 1 : 0);
             const double half = centred ? 0.5 : 0;
             out.low[i] = start + step * (first - half);
             out.high[i] = start + step * (last + half);
             if (!(out.low[i] < out.high[i]))
-                throw at(image, concat("a spacing of ", step, " is lost at ", out.low[i]));
+                throw errorAt(image, concat("a spacing of ", step, " is lost at ", out.low[i]));
         }
         countCells(size, where(image));
         out.resolution = glm::ivec3(size);
@@ -194,12 +196,12 @@ class Reader {
                 const bool taken =
                     sign[row] != 0 || source[(row + 1) % 3] == column || source[(row + 2) % 3] == column;
                 if (std::abs(std::abs(value) - 1) > 1e-9 || taken)
-                    throw at(image, "expected a direction along the axes: grids lie along them");
+                    throw errorAt(image, "expected a direction along the axes: grids lie along them");
                 source[row] = column;
                 sign[row] = value > 0 ? 1 : -1;
             }
         if (sign.x == 0 || sign.y == 0 || sign.z == 0)
-            throw at(image, "expected a direction along the axes: grids lie along them");
+            throw errorAt(image, "expected a direction along the axes: grids lie along them");
         return {source, sign};
     }
 
@@ -240,8 +242,8 @@ class Reader {
         const auto known = std::find_if(std::begin(numberTypes), std::end(numberTypes),
                                         [&](const auto& named) { return named.first == type; });
         if (known == std::end(numberTypes))
-            throw at(array,
-                     "expected numbers as Float32, Float64, or Int8 to UInt64, found \"" + type + "\"");
+            throw errorAt(array,
+                          "expected numbers as Float32, Float64, or Int8 to UInt64, found \"" + type + "\"");
         if (format == "ascii") return asText(array, cells);
         const NumberType number = known->second;
         VtkEncoding encoding = encoding_;
@@ -250,16 +252,16 @@ class Reader {
             encoding.base64 = true;
             std::tie(begin, end) = content(array);
         } else if (format == "appended") {
-            if (parts_.appended == 0) throw at(array, "the file has no appended data");
+            if (parts_.appended == 0) throw errorAt(array, "the file has no appended data");
             encoding.base64 = choice(root_.child("AppendedData"), "encoding", "raw", "base64");
             const auto offset = numbers<1>(array, "offset", nullptr)[0];
             if (!(offset >= 0) || offset > double(parts_.appendedEnd - parts_.appended))
-                throw at(array, concat("the offset ", offset, " lies outside the appended data of ",
-                                       parts_.appendedEnd - parts_.appended, " bytes"));
+                throw errorAt(array, concat("the offset ", offset, " lies outside the appended data of ",
+                                            parts_.appendedEnd - parts_.appended, " bytes"));
             begin = parts_.appended + size_t(offset);
             end = parts_.appendedEnd;
         } else {
-            throw at(array, "expected the format ascii, binary or appended, found \"" + format + "\"");
+            throw errorAt(array, "expected the format ascii, binary or appended, found \"" + format + "\"");
         }
         const std::vector<std::byte> bytes =
             vtkBytes(text_, begin, end, encoding, 3 * cells * bytesOf(number), where(array));
@@ -271,7 +273,7 @@ class Reader {
     // Where an array's text lies in the file.
     std::pair<size_t, size_t> content(const pugi::xml_node& array) const {
         const pugi::xml_node text = array.first_child();
-        if (text.type() != pugi::node_pcdata) throw at(array, "expected data in the array");
+        if (text.type() != pugi::node_pcdata) throw errorAt(array, "expected data in the array");
         const size_t begin = size_t(std::max<std::ptrdiff_t>(text.offset_debug(), 0));
         return {begin, std::min(text_.find('<', begin), text_.size())};
     }
@@ -280,7 +282,7 @@ class Reader {
         const auto [begin, end] = content(array);
         // A number and its separator take two characters at least: a short file cannot make us reserve much.
         if ((end - begin) / 2 + 1 < 3 * cells)
-            throw at(array, concat("expected ", 3 * cells, " values, found fewer"));
+            throw errorAt(array, concat("expected ", 3 * cells, " values, found fewer"));
         NumberScanner scanner(text_, begin, end, file_);
         std::vector<glm::vec3> out = takeVelocities(scanner, cells);
         if (double extra = 0; scanner.next(extra))

@@ -15,8 +15,8 @@ namespace {
 void checkRectangle(const glm::dvec2& low, const glm::dvec2& high, const Where& where) {
     for (int i = 0; i < 2; ++i)
         if (!(low[i] < high[i]))
-            throw Error(where.at("high"), "expected high above low along ", i == 0 ? "x" : "z", ", found ",
-                        high[i], " against ", low[i]);
+            throw Error(where.locate("high"), "expected high above low along ", i == 0 ? "x" : "z",
+                        ", found ", high[i], " against ", low[i]);
 }
 
 HeightFieldCollider heightsOfImage(const HeightSource& source, const Where& where) {
@@ -34,15 +34,16 @@ HeightFieldCollider heightsOfModel(const HeightSource& source, const Where& wher
     const Model& model = reading.models[size_t(needModel(where, "model", source.model, reading.models))];
     const int resolution = source.resolution;
     const Mesh& mesh = model.mesh;
-    if (mesh.triangles.empty()) throw Error(where.at("model"), "model \"", model.name, "\" ", noTriangles);
+    if (mesh.triangles.empty())
+        throw Error(where.locate("model"), "model \"", model.name, "\" ", noTriangles);
     if (!(mesh.low.x < mesh.high.x && mesh.low.z < mesh.high.z))
-        throw Error(where.at("model"),
+        throw Error(where.locate("model"),
                     "expected a model that covers an area in x and z, found one seen edge-on");
     int missed = 0;
     HeightFieldCollider heights = heightFieldFromMesh(mesh, resolution, resolution, &missed);
     if (missed > 0)
         reading.warnings.push_back(
-            {where.at("model"),
+            {where.locate("model"),
              concat(missed, " of ", resolution * resolution, " height samples have no surface of model \"",
                     model.name, "\" beneath; they take its lowest height")});
     return heights;
@@ -61,7 +62,7 @@ void load(HeightFieldCollider& out, const Where& where, SceneReading& reading) {
 void load(DistanceFieldCollider& out, const Where& where, SceneReading& reading) {
     needModel(where, "model", out.model, reading.models);
     if (out.request.resolution && out.request.error)
-        throw Error(where.at("error"), "expected either \"resolution\" or \"error\", found both");
+        throw Error(where.locate("error"), "expected either \"resolution\" or \"error\", found both");
 }
 
 // m: of the spheres that molecules carry.
@@ -78,26 +79,26 @@ double largestRadius(const Scene& scene) {
 }
 
 void checkHeights(const HeightFieldCollider& field, const Where& where) {
-    needWithin(where.at("columns"), field.columns, Range::atLeast(2));
-    needWithin(where.at("rows"), field.rows, Range::atLeast(2));
+    needWithin(where.locate("columns"), field.columns, Range::atLeast(2));
+    needWithin(where.locate("rows"), field.rows, Range::atLeast(2));
     const Range finite = Range::between(-largestNumber, largestNumber);
     for (int i = 0; i < 2; ++i) {
-        needWithin(where.at(concat("low[", i, "]")), field.low[i], finite);
-        needWithin(where.at(concat("high[", i, "]")), field.high[i], finite);
+        needWithin(where.locate(concat("low[", i, "]")), field.low[i], finite);
+        needWithin(where.locate(concat("high[", i, "]")), field.high[i], finite);
     }
     checkRectangle(field.low, field.high, where);
     const size_t samples = size_t(field.columns) * size_t(field.rows);
     if (field.heights.size() != samples)
-        throw Error(where.at("heights"), "expected ", samples, " heights, found ", field.heights.size());
+        throw Error(where.locate("heights"), "expected ", samples, " heights, found ", field.heights.size());
     for (const float height : field.heights)
-        if (!(std::abs(height) <= largestNumber)) needWithin(where.at("heights"), double(height), finite);
+        if (!(std::abs(height) <= largestNumber)) needWithin(where.locate("heights"), double(height), finite);
 }
 
 void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
     const DistanceField& field = collider.field;
     if (where.given("model")) return;  // of a file they are baked when all else is read
     if (field.distances.empty() || field.distances.size() != field.grid.count())
-        throw Error(where.at("field"), "expected ", field.grid.count(),
+        throw Error(where.locate("field"), "expected ", field.grid.count(),
                     " distances, one a sample of a grid, found ", field.distances.size());
 }
 
@@ -105,7 +106,7 @@ void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
 
 static const Description& describe(const HeightSource*) {
     using H = HeightSource;
-    static const Description it =
+    static const Description description =
         Describe<H>("source", "Where heights come from.")
             .key("image", &H::image,
                  {"the name of a grey PNG",
@@ -126,24 +127,24 @@ static const Description& describe(const HeightSource*) {
             .key("resolution", &H::resolution,
                  {"", "The number of samples along x and along z.", Range::between(2, 4096)})
             .only("model", {});
-    return it;
+    return description;
 }
 
 const Description& describe(const HeightFieldCollider*) {
     using H = HeightFieldCollider;
-    static const Description it =
+    static const Description description =
         Describe<H>("heightField", "Heights over a rectangle in x and z, solid below.")
             .keysOf(&H::source)
             .word("normals", &H::sampledNormals, {"stored", "sampled"},
                   {"", "Whether normals are kept beside the heights, or taken from three samples."})
             .derive<SceneReading>(load)
             .rule(checkHeights, R"({"oneOf": [{"required": ["image"]}, {"required": ["model"]}]})");
-    return it;
+    return description;
 }
 
 static const Description& describe(const FieldRequest*) {
     using R = FieldRequest;
-    static const Description it =
+    static const Description description =
         Describe<R>("request", "How fine a distance field is.")
             .key("resolution", &R::resolution,
                  {"", "The number of cells along the model's longest side.",
@@ -153,19 +154,19 @@ static const Description& describe(const FieldRequest*) {
                  {"m", "The grid is refined until no probe near the surface is off by more.", aboveZero()})
             .key("shell", &R::shell, {"m", "The thickness of a model that is not closed.", aboveZero()})
             .usually("two cells");
-    return it;
+    return description;
 }
 
 const Description& describe(const DistanceFieldCollider*) {
     using D = DistanceFieldCollider;
-    static const Description it =
+    static const Description description =
         Describe<D>("distanceField", "The surface of a model, by signed distances on a grid.")
             .key("model", &D::model, {"the name of a model", "The model."})
             .needed()
             .keysOf(&D::request)
             .derive<SceneReading>(load)
             .rule(checkDistances, R"({"not": {"required": ["resolution", "error"]}})");
-    return it;
+    return description;
 }
 
 namespace {
@@ -187,7 +188,8 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
 void checkNew(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
     for (const SurfaceRule& earlier : before)
         if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
-            throw Error(where.at("between"), "\"", rule.a, "\" and \"", rule.b, "\" already have an entry");
+            throw Error(where.locate("between"), "\"", rule.a, "\" and \"", rule.b,
+                        "\" already have an entry");
 }
 
 }  // namespace
@@ -198,7 +200,7 @@ void checkSurfaces(const Scene& scene, const Where& whole) {
         const SurfaceRule& rule = scene.surfacePairs[i];
         const Where where = whole.in("surfacePairs", i);
         for (const std::string& name : {rule.a, rule.b})
-            needNamed(name, known, where.at("between"), "no collider and no group has the surface",
+            needNamed(name, known, where.locate("between"), "no collider and no group has the surface",
                       " (none names a \"surface\")");
         checkNew(rule, std::span(scene.surfacePairs).first(i), where);
     }
@@ -217,10 +219,10 @@ void bakeFields(Scene& scene, const FieldBaking& baking, const Where& whole) {
             out->field = distanceFieldOf(model.mesh, request, baking, scene.warnings);
         } catch (const Error& error) {
             const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
-            throw Error(where.at(key), "model \"", model.name, "\": ", error.message());
+            throw Error(where.locate(key), "model \"", model.name, "\": ", error.message());
         }
         for (const std::string& warning : fieldWarnings(out->field, request))
-            scene.warnings.push_back({where.at("model"), concat("model \"", model.name, "\" ", warning)});
+            scene.warnings.push_back({where.locate("model"), concat("model \"", model.name, "\" ", warning)});
     }
 }
 

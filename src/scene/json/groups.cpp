@@ -21,13 +21,13 @@ double placesOf(const Placement& place) {
 
 void checkItems(const Placement& place, const Where& where) {
     if (place.kind == Placement::Kind::list && place.items.empty())
-        throw Error(where.at("items"), "expected at least one item");
+        throw Error(where.locate("items"), "expected at least one item");
 }
 
 void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
     if (places > 0 && count > places)
-        throw Error(where.at("count"), "expected a count of at most ", places,
+        throw Error(where.locate("count"), "expected a count of at most ", places,
                     ", the number of places, found ", count);
 }
 
@@ -36,7 +36,7 @@ void deriveCount(Group& group, const Where& where) {
         // what is born needs nothing to start with
         if (!where.given("emitters")) where.require("place");
         if (where.given("count"))
-            throw Error(where.at("count"), "expected a \"place\" for those at the start");
+            throw Error(where.locate("count"), "expected a \"place\" for those at the start");
         return;
     }
     checkItems(group.place, where.in("place"));
@@ -44,7 +44,7 @@ void deriveCount(Group& group, const Where& where) {
     const double places = placesOf(group.place);
     if (places == 0) where.require("count");
     if (places > maxGroupCount)
-        throw Error(where.in("place").at("cells"), "expected at most ", maxGroupCount, " places, found ",
+        throw Error(where.in("place").locate("cells"), "expected at most ", maxGroupCount, " places, found ",
                     places);
     group.count = int(places);
 }
@@ -60,7 +60,7 @@ void readDrag(JsonReader& r, Group& group, void*) {
         return parts->finish();
     }
     if (value->kind != JsonValue::Kind::number)
-        throw Error(r.at("drag"), "expected a number, or an object of \"normal\" and \"tangent\", found ",
+        throw Error(r.locate("drag"), "expected a number, or an object of \"normal\" and \"tangent\", found ",
                     name(value->kind));
     r.get("drag", group.drag.normal, Range::atLeast(0));
     group.drag.tangent = group.drag.normal;
@@ -123,11 +123,12 @@ void checkLife(const Group& group, const Where& where) {
     const Where own = where.in("life");
     for (const char* key : newbornKeys)
         if (group.particle && own.given(key))
-            throw Error(own.at(key), "\"", key, "\" is of newborn molecules, and this group has a particle");
+            throw Error(own.locate(key), "\"", key,
+                        "\" is of newborn molecules, and this group has a particle");
     if (own.given("allocator") && life.emitters.empty())
-        throw Error(own.at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
+        throw Error(own.locate("allocator"), "nothing is born here: an allocator needs \"emitters\"");
     if (life.capacity < group.count)
-        throw Error(own.at("capacity"), "expected a capacity of at least the count at the start, ",
+        throw Error(own.locate("capacity"), "expected a capacity of at least the count at the start, ",
                     group.count, ", found ", life.capacity);
     for (size_t i = 0; i < life.emitters.size(); ++i)
         if (life.emitters[i].from == Emitter::From::death && life.allocator != Allocator::gpu)
@@ -145,7 +146,8 @@ void derive(Group& group, const Where& where) {
     if (group.particle)
         for (const char* key : {"molecule", "color", "secondColor", "variation"})
             if (where.given(key))
-                throw Error(where.at(key), "\"", key, "\" is of molecules, and this group has a particle");
+                throw Error(where.locate(key), "\"", key,
+                            "\" is of molecules, and this group has a particle");
     if (group.particle) group.molecule = moleculeOf(*group.particle);
     if (!where.given("name")) group.name = group.molecule.name;
     deriveCount(group, where);
@@ -156,18 +158,18 @@ void checkGroup(const Group& group, const Where& where) {
     // its file was held to the same; a particle's follows from the type, whose colours may glow
     if (!where.given("molecule") && !group.particle) checkMolecule(group.molecule, where.in("molecule"));
     if (group.count != 0 || !group.life) {
-        needWithin(where.at("count"), group.count, Range::between(1, maxGroupCount));
+        needWithin(where.locate("count"), group.count, Range::between(1, maxGroupCount));
         checkItems(group.place, where.in("place"));
         checkCount(group.count, group.place, where);
     }
     if (group.life) checkLife(group, where);
     describe(&group.drag).check(group.drag, where.in("drag"), largestNumber);
     if (group.contact && group.contact->triangles && group.molecule.triangles.empty())
-        throw Error(where.in("contact").at("triangles"), "the molecule has no triangles");
+        throw Error(where.in("contact").locate("triangles"), "the molecule has no triangles");
     if (group.colorBy)
         for (const char* key : {"color", "secondColor", "variation"})
             if (where.given(key))
-                throw Error(where.at(key), "\"", key, "\" has no effect beside \"colorBy\"");
+                throw Error(where.locate(key), "\"", key, "\" has no effect beside \"colorBy\"");
 }
 
 }  // namespace
@@ -177,7 +179,7 @@ const Description& describe(const Group*) {
     static const auto readMoleculeOf = [](JsonReader& r, G& group, void*) {
         if (r.has("molecule") && !r.has("particle")) group.molecule = readMolecule(needFile(r, "molecule"));
     };
-    static const Description it =
+    static const Description description =
         Describe<G>("group", "Molecules or particles of one kind.")
             .location(&G::location)
             .byHand("molecule", {.notEmpty = true}, {"the name of a file", "The molecule."}, readMoleculeOf)
@@ -197,11 +199,11 @@ const Description& describe(const Group*) {
                                               "What molecules or particles of the group are born from.")
             .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
-            .byHand("drag", {.of = Form::Of::numberOrKeys, .range = Range::atLeast(0), .usual = 0},
+            .byHand("drag", {.value = Form::Value::numberOrKeys, .range = Range::atLeast(0), .usual = 0},
                     {"number of at least 0, 1/s; or an object",
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)
-            .of(describe(static_cast<const Drag*>(nullptr)))
+            .holdsKeys(describe(static_cast<const Drag*>(nullptr)))
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
             .only("held", {"true"})
@@ -244,7 +246,7 @@ const Description& describe(const Group*) {
                 "if": {"required": ["place"],
                        "properties": {"place": {"properties": {"on": {"enum": ["vertices", "surface", "volume"]}}}}},
                 "then": {"required": ["count"]}})");
-    return it;
+    return description;
 }
 
 // ---- What only the whole scene can tell
@@ -259,12 +261,12 @@ void checkModelIndex(int model, const std::vector<Model>& models, const Location
 
 void checkObject(const Selection& select, const Model& model, const Where& where) {
     if (select.object.empty()) return;
-    needNamed(select.object, namesOf(model.mesh.objects), where.at("object"),
+    needNamed(select.object, namesOf(model.mesh.objects), where.locate("object"),
               "model \"" + model.name + "\" has no object");
 }
 
 void checkSurface(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
-    checkModelIndex(emitter.model, models, where.at("model"));
+    checkModelIndex(emitter.model, models, where.locate("model"));
     const Model& model = models[size_t(emitter.model)];
     checkObject(emitter.select, model, where.in("select"));
     if (!(selectedArea(model.mesh, emitter.select) > 0))
@@ -275,10 +277,10 @@ void checkSurface(const Emitter& emitter, const std::vector<Model>& models, cons
 void checkModelsOf(const Group& group, const std::vector<Model>& models, const Where& where) {
     if ((group.count != 0 || !group.life) && group.place.onModel()) {
         const Where place = where.in("place");
-        checkModelIndex(group.place.model, models, place.at("model"));
+        checkModelIndex(group.place.model, models, place.locate("model"));
         const Model& model = models[size_t(group.place.model)];
         if (group.place.kind != Placement::Kind::vertices && model.mesh.triangles.empty())
-            throw Error(place.at("model"), "model \"", model.name, "\" ", noTriangles,
+            throw Error(place.locate("model"), "model \"", model.name, "\" ", noTriangles,
                         ", or \"on\": \"vertices\"");
         checkObject(group.place.select, model, place.in("select"));
     }
@@ -313,12 +315,12 @@ void checkDeaths(const std::vector<Group>& groups) {
 void deriveLife(Group& group, const Where& where) {
     if (!group.life) return;
     const bool given = where.given("life");
-    if (!given) group.life->location = where.at("emitters");
+    if (!given) group.life->location = where.locate("emitters");
     if (!given || !where.in("life").given("capacity")) deriveCapacity(group, *group.life, where);
 }
 
 void checkGroups(const Scene& scene, const Where& where) {
-    if (scene.groups.empty()) throw Error(where.at("groups"), "expected at least one group, found none");
+    if (scene.groups.empty()) throw Error(where.locate("groups"), "expected at least one group, found none");
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         const Where here = where.in("groups", i);
         if (here.given("name")) refuseRepeated(here, scene.groups, i);
@@ -331,10 +333,10 @@ void checkGroups(const Scene& scene, const Where& where) {
 std::vector<Warning> warningsOf(const Group& group, const Where& where) {
     std::vector<Warning> out;
     if (group.release && !group.molecule.hasPins())
-        out.push_back({where.at("release"), "nothing to release: the molecule has no pinned vertex"});
+        out.push_back({where.locate("release"), "nothing to release: the molecule has no pinned vertex"});
     const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
     if (group.particle && forEver)
-        for (Warning& warning : agelessWarnings(*group.particle, where.at("particle")))
+        for (Warning& warning : agelessWarnings(*group.particle, where.locate("particle")))
             out.push_back(std::move(warning));
     return out;
 }

@@ -43,10 +43,10 @@ void load(Model& model, const Where& where, SceneReading& reading) {
     try {
         model.mesh = loadMesh(model.file, reading.lenient);
     } catch (const Error& error) {
-        throw Error(where.at("file"), error.what());
+        throw Error(where.locate("file"), error.what());
     }
     for (const std::string& note : model.mesh.notes)
-        reading.warnings.push_back({where.at("file"), concat("model \"", model.name, "\": ", note)});
+        reading.warnings.push_back({where.locate("file"), concat("model \"", model.name, "\": ", note)});
     placeMesh(model.mesh, model);
     const glm::dvec3 reach = glm::max(glm::abs(model.mesh.low), glm::abs(model.mesh.high));
     const double size = glm::distance(model.mesh.low, model.mesh.high);
@@ -54,7 +54,7 @@ void load(Model& model, const Where& where, SceneReading& reading) {
     constexpr double seen = 1e-4;  // of the size
     if (rounding > seen * size && size > 0)
         reading.warnings.push_back(
-            {where.at("file"),
+            {where.locate("file"),
              concat("model \"", model.name, "\" is ", size, " m large and lies so far from the origin that ",
                     "single precision rounds its places by up to ", rounding,
                     " m: give it a \"position\" that takes it there")});
@@ -89,7 +89,7 @@ const Description& describe(const Model*) {
     static const auto readFileOf = [](JsonReader& r, Model& model, void*) {
         model.file = needFile(r, "file");
     };
-    static const Description it =
+    static const Description description =
         Describe<Model>("model",
                         "A mesh that stands still: it is drawn, carries molecules, and makes colliders.")
             .byHand("file", {.notEmpty = true},
@@ -120,7 +120,7 @@ const Description& describe(const Model*) {
                    "alike in all directions."})
             .derive(load)
             .rule(checkModel);
-    return it;
+    return description;
 }
 
 }  // namespace shoal

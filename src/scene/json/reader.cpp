@@ -21,15 +21,16 @@ void refuseHugeNumbers(const JsonValue& value, const std::string& file, const st
 }
 
 std::string needFile(const Where& where, const std::string& key, const std::string& written) {
-    const Location at = where.at(key);
-    if (written.empty()) throw Error(at, "expected the name of a file, found an empty string");
+    const Location location = where.locate(key);
+    if (written.empty()) throw Error(location, "expected the name of a file, found an empty string");
     if (written.find('\0') != std::string::npos)
-        throw Error(at, "expected the name of a file, found a null character in it");
-    const fs::path path = (fs::path(at.file).parent_path() / written).lexically_normal();
+        throw Error(location, "expected the name of a file, found a null character in it");
+    const fs::path path = (fs::path(location.file).parent_path() / written).lexically_normal();
     std::error_code code;
-    if (!mayOpen(path)) throw Error(at, "\"", written, "\" ", outsideSandbox);
-    if (!fs::exists(path, code)) throw Error(at, "no such file: " + path.string());
-    if (fs::is_directory(path, code)) throw Error(at, "expected a file, found a folder: " + path.string());
+    if (!mayOpen(path)) throw Error(location, "\"", written, "\" ", outsideSandbox);
+    if (!fs::exists(path, code)) throw Error(location, "no such file: " + path.string());
+    if (fs::is_directory(path, code))
+        throw Error(location, "expected a file, found a folder: " + path.string());
     return path.string();
 }
 
@@ -49,8 +50,8 @@ size_t needNamed(const std::string& name, const std::vector<std::string>& names,
 
 int needModel(const Where& where, const std::string& key, const std::string& name,
               const std::vector<Model>& models) {
-    return int(
-        needNamed(name, namesOf(models), where.at(key), "no model is named", " (the scene has no models)"));
+    return int(needNamed(name, namesOf(models), where.locate(key), "no model is named",
+                         " (the scene has no models)"));
 }
 
 int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models) {

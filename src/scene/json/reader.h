@@ -49,8 +49,8 @@ int needModel(const Where& where, const std::string& key, const std::string& nam
 template <typename T>
 std::vector<std::string> namesOf(const std::vector<T>& list) {
     std::vector<std::string> names;
-    for (const T& one : list)
-        names.push_back(one.name);
+    for (const T& element : list)
+        names.push_back(element.name);
     return names;
 }
 
@@ -64,7 +64,7 @@ void refuseRepeated(const Where& where, const std::vector<T>& list, size_t index
     const std::string& name = list[index].name;
     const auto same = [&](const T& earlier) { return earlier.name == name; };
     if (!name.empty() && std::any_of(list.begin(), list.begin() + std::ptrdiff_t(index), same))
-        throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
+        throw Error(where.locate("name"), "the name \"" + name + "\" is already taken");
 }
 
 }  // namespace shoal

@@ -28,9 +28,9 @@ void checkForceGroups(const Scene& scene, const Where& whole) {
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Where where = whole.in("forces", i);
         if (where.given("groups") && scene.forces[i].groups.empty())
-            throw Error(where.at("groups"), "expected the name of at least one group; all without it");
+            throw Error(where.locate("groups"), "expected the name of at least one group; all without it");
         for (const std::string& name : scene.forces[i].groups)
-            needNamed(name, known, where.at("groups"), "no group is named", " (none has a \"name\")");
+            needNamed(name, known, where.locate("groups"), "no group is named", " (none has a \"name\")");
     }
 }
 
@@ -47,7 +47,7 @@ void checkParts(const Scene& scene, const Where& where) {
 }  // namespace
 
 const Description& describe(const Scene*) {
-    static const Description it =
+    static const Description description =
         Describe<Scene>("scene", "A scene: everything that a run needs. What is left out is not simulated.")
             .format("shoal-scene-1")
             .key("name", &Scene::name, {"", "Its name."})
@@ -71,7 +71,7 @@ const Description& describe(const Scene*) {
                  {"", "What accelerates molecules beside gravity, fields and springs."})
             .key("surfacePairs", &Scene::surfacePairs, {"", "Restitution and friction of pairs of surfaces."})
             .rule(checkParts, R"({"properties": {"groups": {"minItems": 1}}})");
-    return it;
+    return description;
 }
 
 Scene parseScene(const std::string& text, const std::string& file, const SceneOptions& options) {
@@ -121,14 +121,14 @@ class Collector {
     std::set<std::string> files;
 
   private:
-    void addIfFile(const fs::path& by, const std::string& text) {
+    void addIfFile(const fs::path& base, const std::string& text) {
         constexpr size_t longestName = 1024;
         if (text.empty() || text.size() > longestName || text.find('\0') != std::string::npos) return;
-        const fs::path path = (by.parent_path() / text).lexically_normal();
+        const fs::path path = (base.parent_path() / text).lexically_normal();
         std::error_code code;
         if (fs::is_regular_file(path, code)) add(path);
-        for (const std::string& one : numberedFiles(path))
-            add(one);
+        for (const std::string& file : numberedFiles(path))
+            add(file);
     }
 
     void addNamed(const fs::path& file) {

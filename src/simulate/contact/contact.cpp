@@ -44,7 +44,7 @@ void Contact::step(const Frame& frame, gpu::PassTimers& timers) {
 }
 
 void Contact::bindLoads(const Program& program, size_t group, int firstMolecule) const {
-    const ContactGroup* contact = data_.contact->of(group);
+    const ContactGroup* contact = data_.contact->find(group);
     if (!contact || !data_.remembers) return;
     program.set("firstSphere", contact->firstSphere + firstMolecule * contact->spheresOf);
     if (data_.textures)

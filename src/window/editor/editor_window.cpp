@@ -159,8 +159,8 @@ class EditorWindow : public WindowLoop {
 
     EditorAction drawPanels() {
         EditorAction action = EditorAction::none;
-        const auto take = [&action](EditorAction one) {
-            if (one != EditorAction::none) action = one;
+        const auto take = [&action](EditorAction taken) {
+            if (taken != EditorAction::none) action = taken;
         };
         take(drawTools(editor_));
         take(drawAdvice(editor_));
@@ -390,7 +390,7 @@ class EditorWindow : public WindowLoop {
         if (!pointer_.holds())
             if (const std::optional<std::string> failed = document.keep()) tell("keeping", *failed);
         if (!document.unsaved()) troubles.end("keeping");
-        fileChanged_ |= !file_.changed(now()).empty();
+        fileChanged_ |= !file_.changed(wallTime()).empty();
         if (document.recovered() || !fileChanged_) return;
         if (document.changedOnDisk() && document.unsaved())
             return tell("file", "the file was changed by another program; what you changed is not in it");

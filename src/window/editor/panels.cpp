@@ -192,13 +192,13 @@ void drawSurroundings(StageSettings& s) {
 
 void drawSolver(StageSettings& s, const EditorStage& stage) {
     ImGui::SetNextItemWidth(points(140));
-    const std::string now = s.solver ? name(*s.solver) : concat("auto: ", name(stage.solver()));
-    if (ImGui::BeginCombo("##solver", now.c_str())) {
+    const std::string current = s.solver ? name(*s.solver) : concat("auto: ", name(stage.solver()));
+    if (ImGui::BeginCombo("##solver", current.c_str())) {
         if (ImGui::Selectable("auto", !s.solver)) s.solver.reset();
-        for (const Solver& one : solvers()) {
+        for (const Solver& solver : solvers()) {
             // Its matrix does not follow springs that are changed while it runs.
-            if (one.kind == SolverKind::bdf2Corotated) continue;
-            if (ImGui::Selectable(one.name, s.solver == one.kind)) s.solver = one.kind;
+            if (solver.kind == SolverKind::bdf2Corotated) continue;
+            if (ImGui::Selectable(solver.name, s.solver == solver.kind)) s.solver = solver.kind;
         }
         ImGui::EndCombo();
     }

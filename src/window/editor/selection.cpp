@@ -48,7 +48,7 @@ void drawNumbers(Editor& editor, S first, const Change& change) {
     for (const Key& key : describe(&first).keys()) {
         if (key.kind != Key::Kind::number || key.member.optional) continue;
         if (drawNumber(editor, key, numberOf(key, first)))
-            change(inWords(key.name), [&](S& one) { numberOf(key, one) = numberOf(key, first); });
+            change(inWords(key.name), [&](S& element) { numberOf(key, element) = numberOf(key, first); });
     }
 }
 

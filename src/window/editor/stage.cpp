@@ -20,12 +20,13 @@ constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
 
 // Whether the same programs run both: their text holds all but the springs' numbers and the start.
 bool sameProgram(const Plan& a, const Plan& b) {
-    const GroupPlan &one = a.groups[0], &other = b.groups[0];
-    return one.kernel == other.kernel && one.solver == other.solver && one.springCount == other.springCount &&
-           a.fields.source == b.fields.source && a.fields.parameters == b.fields.parameters &&
-           a.colliders.source == b.colliders.source && a.gravity == b.gravity && a.substeps == b.substeps &&
-           one.colliderParameters == other.colliderParameters && one.drag.normal == other.drag.normal &&
-           one.drag.tangent == other.drag.tangent && one.rigid == other.rigid;
+    const GroupPlan &group = a.groups[0], &other = b.groups[0];
+    return group.kernel == other.kernel && group.solver == other.solver &&
+           group.springCount == other.springCount && a.fields.source == b.fields.source &&
+           a.fields.parameters == b.fields.parameters && a.colliders.source == b.colliders.source &&
+           a.gravity == b.gravity && a.substeps == b.substeps &&
+           group.colliderParameters == other.colliderParameters && group.drag.normal == other.drag.normal &&
+           group.drag.tangent == other.drag.tangent && group.rigid == other.rigid;
 }
 
 // Whether a renderer that was made for one draws the other.
