@@ -1,7 +1,8 @@
 // The tree's level 0 (births/tree.glsl): words of bits for 32 places each, of those that are asked for. With compute shaders
 // the step has noted what died. In fragments the two sides of the state tell.
 #include "state/lanes.glsl"
-#pragma updates free died
+#pragma reads free
+#pragma updates died
 #pragma writes sums
 
 uniform int ofDeaths;    // whether a bit is set for a place in which a molecule died in this step, or for a free one
