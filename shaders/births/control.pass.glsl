@@ -14,6 +14,8 @@ uniform int deathRunCount;
 uniform ivec4 deathRuns[mostDeathRuns];  // x the group that dies, y births for each
 uniform ivec4 parts;        // of the group's state: x the first, y how many, z places of each, w molecules of a workgroup
 
+const uint mostRequested = 0x40000000u;  // none beyond finds a place
+
 uvec4 words[8];
 
 uint wordOf(int which)
@@ -57,7 +59,9 @@ void putBirths(bool allocates)
     uint requested = uint(scheduled);
     for (int d = 0; d < deathRunCount; ++d) {
         put(controlFirsts + d, requested);
-        requested += controlAt(deathRuns[d].x, controlDeaths / 4)[controlDeaths % 4] * uint(deathRuns[d].y);
+        uint deaths = controlAt(deathRuns[d].x, controlDeaths / 4)[controlDeaths % 4];
+        uint each = uint(deathRuns[d].y);
+        requested += min(deaths, (mostRequested - min(requested, mostRequested)) / each) * each;
     }
     uint free = uint(countInAll());
     uint born = allocates ? min(requested, free) : 0u;

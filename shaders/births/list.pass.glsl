@@ -6,10 +6,12 @@
 #pragma writes deaths
 
 uniform int group;
+uniform int firstRank;  // of this pass
 
 void main()
 {
-    int rank = ownLane();
+    int lane = ownLane();
+    int rank = firstRank + lane;
     uint count = controlAt(group, controlDeaths / 4)[controlDeaths % 4];
-    putDeaths(firstNumber + rank, uint(rank) < count ? uint(placeOfRank(rank)) : 0u);
+    putDeaths(firstNumber + lane, uint(rank) < count ? uint(placeOfRank(rank)) : 0u);
 }

@@ -32,7 +32,7 @@ int explainCommand(const Options& options) {
         JsonValue report = explainJson(loaded.plan, choice, options.inPlace);
         if (found) report.add("calibration", asJson(*found));
         if (cost) report.add("cost", asJson(*cost));
-        if (passes) report.add("framePasses", asJson(*passes));
+        if (passes) report.add("frame", asJson(*passes));
         std::cout << writeJson(report);
         return 0;
     }

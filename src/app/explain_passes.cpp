@@ -50,7 +50,8 @@ std::string asText(const FramePasses& passes) {
 }
 
 JsonValue asJson(const FramePasses& passes) {
-    return arrayOf<gpu::PassRow>(passes.rows, asJson);
+    return object(key("renderer", passes.machine.context.renderer),
+                  key("passes", arrayOf<gpu::PassRow>(passes.rows, asJson)));
 }
 
 }  // namespace shoal::app

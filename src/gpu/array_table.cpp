@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/contract.h"
 #include "core/file.h"
 
 namespace shoal::gpu {
@@ -232,6 +233,7 @@ std::string ArrayDeclarations::outputs(const std::vector<const ArrayRow*>& rows)
                           put = concat("#define put", name, "(", argumentsOf(*row, ""));
         const std::string head = concat("layout(location = ", location_, ") out ");
         if (row->ofList && row->packed > 1) {
+            EXPECTS(row == rows.back() && "how many outputs it takes is known to the shader alone");
             out += concat(head, "uvec4 ", output, "[LIST / 4];\n");
         } else if (row->ofList) {
             out += concat(head, typeOf(*row), " ", output, "[ENTRIES_A_DRAW];\n", typeOf(*row), " ",

@@ -8,10 +8,12 @@
 namespace shoal::gpu {
 
 struct PassRow {
-    std::string stage;                       // as PassTimers names it; empty: outside of them
-    std::string pass;                        // the program's label
-    int times = 0;                           // dispatches and draws
-    std::vector<std::string> reads, writes;  // arrays and textures, by the names that the shader declares
+    std::string stage;  // as PassTimers names it; empty: outside of them
+    std::string pass;   // the program's label
+    int times = 0;      // dispatches and draws
+    // Arrays and textures by the names that the shader declares; a storage block that is read and written is
+    // among `writes`, and so are colour targets of an array.
+    std::vector<std::string> reads, writes;
 };
 
 class FrameRecord {

@@ -14,8 +14,8 @@ namespace shoal {
 using gpu::Program;
 using gpu::Traffic;
 
-constexpr size_t mostDeathRuns =
-    6;  // two textures of each, beside those of the group, of the 16 that any device has
+// Two textures of each, beside at most seven of the group, of the 16 that any device has.
+constexpr size_t mostDeathRuns = 4;
 constexpr int64_t mostScheduled = 1 << 30;  // newborns of a step: none beyond finds a place
 
 static void setPoint(const Program& program, const char* name, const glm::dvec3& point) {
@@ -169,7 +169,7 @@ void BirthPasses::setAge(const Program& step, const Living& living) const {
 
 int BirthPasses::reachOf(const Living& living) const {
     if (!living.emits() || living.onGpu()) return living.count();
-    return std::max(markOf(living), living.markBefore);
+    return std::max({markOf(living), living.marksBefore[0], living.marksBefore[1]});
 }
 
 int BirthPasses::markOf(const Living& living) const {
@@ -222,7 +222,11 @@ void BirthPasses::listDeaths(const Living& living) {
     renew(living, Renewal::deaths, living.count());
     arrays_.with(list_).set("group", int(living.group));
     setTree(list_, living);
-    arrays_.run(list_, living.firstDeath, living.count());
+    constexpr int most = 4095 * stateWidth;  // lanes that any device takes in one dispatch, and whole rows
+    for (int first = 0; first < living.count(); first += most) {
+        list_.set("firstRank", first);
+        arrays_.run(list_, living.firstDeath + first, std::min(most, living.count() - first));
+    }
 }
 
 void BirthPasses::begin() {
@@ -285,7 +289,7 @@ BirthPasses::Newborns BirthPasses::schedule(Living& living, const Frame& frame) 
         out.born = -1;
         return out;
     }
-    living.markBefore = markOf(living);
+    living.marksBefore = {markOf(living), living.marksBefore[0]};
     if (living.listed()) {
         takePlaces(living, frame.end, out);
         return out;
@@ -367,7 +371,7 @@ void BirthPasses::write(size_t group, const GroupState& state, double time) {
     words[control::lost] = uint32_t(state.totals[1]);
     words[control::bornEver] = uint32_t(state.totals[0]);
     arrays_.writeElement("control", Traffic::Kind::state, group, words);
-    living.markBefore = int(all);
+    living.marksBefore = {living.count(), living.count()};
     living.clocks = state.clocks;
     living.clocks.resize(living.life.emitters.size());
     living.born = state.totals[0];

@@ -11,6 +11,7 @@
 // control (shaders/births/control.glsl).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -56,9 +57,9 @@ class BirthPasses {
         Lifecycle life;
         std::vector<glm::dvec3> middles;  // m, of the emitters
         std::vector<BirthClock> clocks;
-        Places book;                  // allocators stack and heap
-        uint64_t born = 0, lost = 0;  // of the allocators on the CPU, and born of the ring
-        int markBefore = 0;
+        Places book;                       // allocators stack and heap
+        uint64_t born = 0, lost = 0;       // of the allocators on the CPU, and born of the ring
+        std::array<int, 2> marksBefore{};  // one step and two steps before
         std::vector<DeathRun> deathRuns;
         int firstDeath = 0, firstWord = 0;  // in the lists of deaths, and in the bits of all groups
         glm::ivec4 parts{0, 0, 1, 1};  // of its state: the first, how many, places of each, of a workgroup
@@ -84,8 +85,9 @@ class BirthPasses {
 
     // Gives a step what growOlder() needs beside the places.
     void setAge(const gpu::Program& step, const Living& living) const;
-    // The places that a step covers, of those that the CPU knows: as many as the one before needed, because
-    // what died one step ago is still alive on the other side of the state.
+    // The places that a step covers, of those that the CPU knows: as many as the two before needed. What died
+    // one step ago is still alive on the other side of the state, and an age in float may end a step after
+    // the CPU has freed the place.
     int reachOf(const Living& living) const;
 
     const Plan* plan_;

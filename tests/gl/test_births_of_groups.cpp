@@ -1,6 +1,7 @@
 // Births from deaths, of molecules, beside contact, in parts, and beyond what a context holds.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "gl/births.h"
 #include "gl/feature_scenes.h"
@@ -216,6 +217,42 @@ TEST_CASE("more are born in one step than a device takes in one direction of a d
     const GroupState state = simulation.save().groups[0];
     CHECK(std::count_if(state.lives.begin(), state.lives.end(),
                         [](const glm::vec2& life) { return life.x > 0 && life.y > 0; }) == count);
+}
+
+TEST_CASE("more die in one step than a device takes in one direction of a dispatch", "[births]") {
+    if (!testContext().info().computeShaders || testPath() == Path::pingPong) return;
+    constexpr int inOne = 65535 * 64, count = inOne + 1000;
+    Emitter box = burst(count);
+    box.from = Emitter::From::box;
+    box.box = {{-50, -50, -50}, {50, 50, 50}};
+    Scene scene = emitting(box, count, {0.001, 0.001});
+    scene.groups[0].name = "source";
+    scene.groups.push_back(emitting(fromDeaths("source", 1, 0), count).groups[0]);
+    Simulation simulation = simulationOf(scene);
+    run(simulation, 2);
+    CHECK(simulation.lifeCounts(1).live == count);
+    // each is born where another one died
+    const GroupState state = simulation.save().groups[1];
+    std::set<float> heights;
+    for (size_t i = inOne; i < state.positions.size(); ++i)
+        heights.insert(state.anchors[i].y + state.positions[i].y);
+    CHECK(heights.size() > 900);
+}
+
+TEST_CASE("what dies a step after its place was freed does not live on beyond the reach of steps",
+          "[births]") {
+    if (!canSpawn()) return;
+    for (const Allocator allocator : {Allocator::stack, Allocator::heap}) {
+        Scene scene = emitting(burst(10), 100, {1, 1});
+        scene.groups[0].life->allocator = allocator;
+        Simulation simulation = simulationOf(scene);
+        run(simulation, 64);  // frames of 1/60 s
+        for (int frame = 0; frame < 4; ++frame) {
+            run(simulation, 1);
+            CHECK(livingOf(simulation.save().groups[0]).empty());
+            CHECK(simulation.lifeCounts(0).live == 0);
+        }
+    }
 }
 
 TEST_CASE("a capacity that fragments cannot hold is refused", "[births]") {
