@@ -64,7 +64,7 @@ void main()
         uint asked = askedIn(word);
         if (asked == 0u) continue;
         bits[i] = bitsOf(word, asked);
-        if (ofDeaths != 0) putDied(firstWord + word, 0u);
+        if (ofDeaths != 0) putDied(firstWord + word, 0u);  // fragments lack the array, and nothing of this is left there
     }
     putSums(four, bits);
 }

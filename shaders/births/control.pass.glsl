@@ -7,12 +7,16 @@
 #pragma writes nextControl reaches
 
 uniform int group;
-uniform int renewal;        // 0 deaths, 1 lives cut short, 2 births; 3 births that are only counted
+uniform int renewal;        // what is renewed (BirthPasses::Renewal)
 uniform int summedPlaces;   // over which the sums go
 uniform int scheduled;      // births that the CPU knows of
 uniform int deathRunCount;
 uniform ivec4 deathRuns[mostDeathRuns];  // x the group that dies, y births for each
 uniform ivec4 parts;        // of the group's state: x the first, y how many, z places of each, w molecules of a workgroup
+
+const int ofDeaths = 0;
+const int ofCuts = 1;  // lives that a birth cut short
+const int ofCounts = 3;  // births are counted, and none finds a place
 
 const uint mostRequested = 0x40000000u;  // none beyond finds a place
 
@@ -97,12 +101,12 @@ void main()
     int own = ownLane();
     for (int k = 0; k < 8; ++k) words[k] = controlAt(own, k);
     if (own == group) {
-        if (renewal == 0) {
+        if (renewal == ofDeaths) {
             put(controlDeaths, uint(countInAll()));
-        } else if (renewal == 1) {
+        } else if (renewal == ofCuts) {
             count(controlLost, uint(summedPlaces - countInAll()));
         } else {
-            putBirths(renewal == 2);
+            putBirths(renewal != ofCounts);
             putReach();
         }
     }

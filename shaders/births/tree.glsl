@@ -1,6 +1,7 @@
 // A tree of sums over the places of a group: the free ones, or those in which a molecule died in this step. A node of level
 // 0 is a word of bits for 32 places; a node of a higher level counts the set bits below it, in 32 nodes of the level below.
-// Four nodes lie together.
+// Four nodes lie together. The highest level lies in `sums`, and each level in another array than the one above it
+// (BirthPasses::sum).
 #include "births/bits_in.glsl"
 #pragma reads sums sumsBelow
 
