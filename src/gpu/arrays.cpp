@@ -123,26 +123,34 @@ void Arrays::write(const std::string& name, Traffic::Kind kind, const void* data
     if (rest > 0) texture(name).upload(kind, 0, rows, rest, 1, bytes + whole, size_t(rest) * each);
 }
 
+// Visits the layers of a texture: where an element's texel lies in each, and its place in the element.
+template <typename Visit>
+static void forLayers(const ArrayRow& row, size_t element, int rowBits, const Visit& visit) {
+    const size_t each = bytesOf(row.texel), width = size_t(1) << rowBits;
+    for (int k = 0; k < row.count; ++k)
+        visit(glm::ivec2(element % width, element / width), size_t(k) * each, each, k);
+}
+
 void Arrays::writeElement(const std::string& name, Traffic::Kind kind, size_t element, const void* data) {
     const ArrayRow& row = *at(name).row;
-    const size_t each = bytesOf(row.texel), all = each * size_t(row.count);
+    const size_t bytes = bytesOf(row.texel) * size_t(row.count);
     if (table_->form() == ArrayTable::Form::buffers)
-        return buffer(name).update(kind, element * all, data, all);
-    for (int k = 0; k < row.count; ++k)
-        texture(name).upload(kind, int(element & ((size_t(1) << sizes_.rowBits) - 1)),
-                             int(element >> sizes_.rowBits), 1, 1,
-                             static_cast<const std::byte*>(data) + size_t(k) * each, each, k);
+        return buffer(name).update(kind, element * bytes, data, bytes);
+    forLayers(row, element, sizes_.rowBits, [&](glm::ivec2 texel, size_t offset, size_t each, int layer) {
+        texture(name).upload(kind, texel.x, texel.y, 1, 1, static_cast<const std::byte*>(data) + offset, each,
+                             layer);
+    });
 }
 
 void Arrays::readElement(const std::string& name, Traffic::Kind kind, size_t element, void* data) const {
     const ArrayRow& row = *at(name).row;
-    const size_t each = bytesOf(row.texel), all = each * size_t(row.count);
+    const size_t bytes = bytesOf(row.texel) * size_t(row.count);
     if (table_->form() == ArrayTable::Form::buffers)
-        return buffer(name).download(kind, element * all, data, all);
-    for (int k = 0; k < row.count; ++k)
-        texture(name).download(kind, int(element & ((size_t(1) << sizes_.rowBits) - 1)),
-                               int(element >> sizes_.rowBits), 1, 1,
-                               static_cast<std::byte*>(data) + size_t(k) * each, each, k);
+        return buffer(name).download(kind, element * bytes, data, bytes);
+    forLayers(row, element, sizes_.rowBits, [&](glm::ivec2 texel, size_t offset, size_t each, int layer) {
+        texture(name).download(kind, texel.x, texel.y, 1, 1, static_cast<std::byte*>(data) + offset, each,
+                               layer);
+    });
 }
 
 const Arrays::Entry* Arrays::find(std::string_view name) const {
@@ -278,6 +286,7 @@ void Arrays::run(const Program& program, int firstNumber, int numbers, int first
 }
 
 void Arrays::runGroups(const Program& program, int groups) {
+    EXPECTS(groups <= context_->info().maxWorkGroupsX);
     ++dispatches_;
     order(program);
     program.dispatch(groups);

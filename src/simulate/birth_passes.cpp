@@ -1,8 +1,7 @@
 #include "simulate/birth_passes.h"
 
-#include <bit>
-
 #include <algorithm>
+#include <bit>
 
 #include "compile/generate_emitters.h"
 #include "compile/pack.h"
@@ -145,8 +144,9 @@ void BirthPasses::makePrograms(gpu::Context& context) {
     for (const auto& living : groups_) {
         if (!living) continue;
         gpu::ProgramOptions bits = arrays_.passOptions("births/bits", "bits of places");
-        for (const std::string& define : living->plan->layout().defines(textures))
-            if (textures) bits.defines.push_back(define);
+        if (textures)
+            for (const std::string& define : living->plan->layout().defines(true))
+                bits.defines.push_back(define);
         living->bits = &programs_.get(context, bits);
         if (!living->emits()) continue;
         KernelOptions kernel;

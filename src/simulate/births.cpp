@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
-#include "simulate/group_kernel.h"
 
 namespace shoal {
 

@@ -65,12 +65,11 @@ SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables
 gpu::ProgramOptions SchoolPasses::optionsOf(const std::string& file, const std::string& label,
                                             const GroupPlan* group) const {
     gpu::ProgramOptions out = arrays_.passOptions(file, label);
-    const auto define = [&](const std::string& text) { out.defines.push_back(text); };
-    for (const std::string& layout :
-         group ? group->layout().defines(hasTextures()) : std::vector<std::string>())
-        define(layout);
-    define(concat("BODY_ELEMENTS ", bodyElements));
-    define(concat("STEERING_ELEMENTS ", steeringElements));
+    out.defines.insert(out.defines.end(), {concat("BODY_ELEMENTS ", bodyElements),
+                                           concat("STEERING_ELEMENTS ", steeringElements)});
+    if (group)
+        for (const std::string& define : group->layout().defines(hasTextures()))
+            out.defines.push_back(define);
     return out;
 }
 
