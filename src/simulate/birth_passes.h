@@ -34,6 +34,9 @@ class BirthPasses {
   public:
     virtual ~BirthPasses() = default;
     bool has(size_t group) const { return bool(groups_[group]); }
+    // Runs the step of a range of a group with life, a program in use that has been given all but what
+    // growOlder() needs, as far as there are lives.
+    virtual void runStep(const gpu::Program& program, size_t group, size_t range) const = 0;
     // After the step of all groups: who is born in it.
     void step(const Frame& frame, gpu::PassTimers& timers);
     // These write and read the part of a group's state that lies here; `time`: of the state, s.

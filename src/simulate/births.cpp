@@ -13,10 +13,10 @@ namespace {
 
 constexpr int mostGroups = 65535;  // that any device takes in one direction of a dispatch
 
-std::vector<glm::ivec4> partsOf(const std::vector<GroupBuffers>& state, const std::vector<int>& together) {
+std::vector<glm::ivec4> partsOf(const std::vector<GroupBuffers>& state) {
     std::vector<glm::ivec4> out;
-    for (size_t g = 0; g < state.size(); ++g)
-        out.emplace_back(0, int(state[g].parts().size()), state[g].parts().front().count, together[g]);
+    for (const GroupBuffers& group : state)
+        out.emplace_back(0, int(group.parts().size()), group.parts().front().count, group.together());
     return out;
 }
 
@@ -27,11 +27,13 @@ int groupsOf(int molecules, int together) {
 }  // namespace
 
 BufferBirths::BufferBirths(gpu::Context& context, const Plan& plan, const Tables& tables,
-                           const std::vector<GroupBuffers>& state, const std::vector<int>& together)
-    : BirthPasses(context, plan, tables, Form::buffers, partsOf(state, together)), state_(&state) {}
+                           const std::vector<GroupBuffers>& state)
+    : BirthPasses(context, plan, tables, Form::buffers, partsOf(state)), state_(&state) {}
 
-void BufferBirths::dispatchStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {
+void BufferBirths::runStep(const Program& program, size_t group, size_t range) const {
     const Living& living = *groups_[group];
+    const GroupBuffers::Part& part = (*state_)[group].parts()[range];
+    (*state_)[group].bindNew(program, part);
     // a part has whole words of bits (GroupBuffers)
     const size_t first = size_t(living.firstWord) + size_t(part.first) / 32;
     const size_t words = (size_t(part.count) + 31) / 32;
@@ -108,14 +110,16 @@ TextureBirths::TextureBirths(gpu::Context& context, const Plan& plan, const Tabl
                   std::vector<glm::ivec4>(plan.groups.size(), {0, 0, 1, 1})),
       state_(&state) {}
 
-int TextureBirths::bindStep(const Program& program, size_t group) const {
+void TextureBirths::runStep(const Program& program, size_t group, size_t) const {
     const Living& living = *groups_[group];
+    const GroupLayers& state = (*state_)[group];
     setAge(program, living);
-    if (!living.onGpu()) return 3;
-    program.texture("control", arrays_.texture("control"));
-    program.set("group", int(group));
-    program.set("stateRows", (*state_)[group].state().height());
-    return 6;
+    if (living.onGpu()) {
+        program.texture("control", arrays_.texture("control"));
+        program.set("group", int(group));
+        program.set("stateRows", state.state().height());
+    }
+    state.draw(program, PackedState::Output::state, reachOf(living), living.onGpu() ? 6 : 3);
 }
 
 void TextureBirths::bindPlaces(const Program& bits, const Living& living) const {

@@ -13,14 +13,10 @@ namespace shoal {
 // several parts, a dispatch spawns those whose places lie in one of them.
 class BufferBirths : public BirthPasses {
   public:
-    // Borrows all but the vector. Of each group: its state, and as `together` the molecules that a workgroup
-    // of its step takes. Errors: as of BirthPasses.
+    // Borrows all. Errors: as of BirthPasses.
     BufferBirths(gpu::Context& context, const Plan& plan, const Tables& tables,
-                 const std::vector<GroupBuffers>& state, const std::vector<int>& together);
-
-    // The step of a part of a group with life: what growOlder() needs, and as many workgroups as there are
-    // lives.
-    void dispatchStep(const gpu::Program& program, size_t group, const GroupBuffers::Part& part) const;
+                 const std::vector<GroupBuffers>& state);
+    void runStep(const gpu::Program& program, size_t group, size_t range) const override;
 
   private:
     void bindPlaces(const gpu::Program& bits, const Living& living) const override;
@@ -41,10 +37,7 @@ class TextureBirths : public BirthPasses {
     TextureBirths(gpu::Context& context, const Plan& plan, const Tables& tables,
                   const std::vector<GroupLayers>& state);
 
-    // The step of a group with life: what growOlder() needs, and the places that it covers, as far as the CPU
-    // knows. Returns how many vertices its draw has.
-    int bindStep(const gpu::Program& program, size_t group) const;
-    int reach(size_t group) const { return reachOf(*groups_[group]); }
+    void runStep(const gpu::Program& program, size_t group, size_t range) const override;
 
   private:
     void bindPlaces(const gpu::Program& bits, const Living& living) const override;

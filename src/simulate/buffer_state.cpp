@@ -42,8 +42,10 @@ void checkMemory(const gpu::Context& context, const GroupPlan& group, size_t ele
 }  // namespace
 
 GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
-                           size_t largestPart)
-    : PackedState(group, group.layout().padded(size_t(group.count)), BufferLayout::block), inPlace_(inPlace) {
+                           int together, size_t largestPart)
+    : PackedState(group, group.layout().padded(size_t(group.count)), BufferLayout::block),
+      inPlace_(inPlace),
+      together_(together) {
     const auto make = [&](Values values, const char* what) {
         return makeBuffer(context, group, molecules() * size_t(elements(values)), what);
     };
@@ -81,6 +83,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
     size_t most =
         std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /
         elements;
+    most = std::min(most, size_t(info.maxWorkGroupsX) * size_t(together_));
     if (largestPart > 0) most = std::min(most, largestPart);
     most = std::max(most / unit, size_t(1)) * unit;
     for (size_t first = 0; first < molecules(); first += most) {
@@ -103,6 +106,26 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
 
 void store(const gpu::Program& program, const char* block, const GroupBuffers::Range& range) {
     program.storage(block, *range.buffer, range.offset, range.bytes);
+}
+
+void GroupBuffers::bindRead(const gpu::Program& program, size_t index) const {
+    const Part& part = parts_[index];
+    if (program.uses("oldState")) program.texture("oldState", oldState(part));
+    if (program.uses("oldRecords")) program.texture("oldRecords", part.record);
+    if (program.uses("constants")) program.texture("constants", part.constant);
+    if (program.uses("steering")) program.texture("steering", part.steering);
+}
+
+void GroupBuffers::bindNew(const gpu::Program& program, const Part& part) const {
+    store(program, "NewState", newState(part));
+    if (program.declares("NewRecords")) store(program, "NewRecords", records(part));
+    if (program.declares("NewNormals")) store(program, "NewNormals", normals(part));
+}
+
+void GroupBuffers::run(const gpu::Program& program, size_t index, Output) const {
+    const Part& part = parts_[index];
+    bindNew(program, part);
+    program.dispatch((part.count + together_ - 1) / together_);
 }
 
 template <typename Self>

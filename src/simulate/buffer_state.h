@@ -19,19 +19,14 @@
 
 namespace shoal {
 
-namespace gpu {
-class Program;
-}
-
 class GroupBuffers : public PackedState {
   public:
-    // `largestPart`: molecules that one dispatch may take, 0 for no limit of its own.
-    // Error: out of memory; says of which group and how much it would take.
-    GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
+    // `together`: molecules that a workgroup takes. `largestPart`: molecules that one dispatch may take, 0
+    // for no limit of its own. Error: out of memory; says of which group and how much it would take.
+    GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace, int together,
                  size_t largestPart);
 
-    struct Part {
-        int first = 0, count = 0;  // molecules
+    struct Part : MoleculeRange {
         std::array<gpu::BufferTexture, 2> state;
         gpu::BufferTexture record, constant, normal, steering;
     };
@@ -52,11 +47,18 @@ class GroupBuffers : public PackedState {
     Range constants(const Part& part) const { return rangeOf(part, constants_, 1); }
     Range normals(const Part& part) const { return rangeOf(part, normals_, layout().positionElements()); }
     const gpu::Buffer& steering() const { return steering_; }  // of all parts
-    void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
+    int together() const { return together_; }
+
+    std::vector<MoleculeRange> ranges() const override { return {parts_.begin(), parts_.end()}; }
+    void bindRead(const gpu::Program& program, size_t part) const override;
+    // Gives a program in use what a step, or a pass that computes normals, writes of a part.
+    void bindNew(const gpu::Program& program, const Part& part) const;
+    void run(const gpu::Program& program, size_t part, Output output) const override;
+    void flip() override { current_ = inPlace_ ? 0 : 1 - current_; }
+    bool hasBefore() const override { return !inPlace_; }
 
     bool hasConstants() const override { return bool(constants_); }
     bool hasNormals() const override { return bool(normals_); }
-    bool inPlace() const { return inPlace_; }
 
   private:
     bool hasSteering() const override { return bool(steering_); }
@@ -70,6 +72,7 @@ class GroupBuffers : public PackedState {
     void split(gpu::Context& context, size_t largestPart);
 
     bool inPlace_ = false;
+    int together_;
     int current_ = 0;
     std::array<gpu::Buffer, 2> state_;
     gpu::Buffer records_, constants_, normals_, steering_;

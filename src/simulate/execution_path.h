@@ -1,5 +1,6 @@
-// An execution path holds the state of a plan and moves it, as a Simulation asks: `Fused` (OpenGL 4.3),
-// `Fragments` or `PingPong` (OpenGL 3.3). What a path does not have it answers with nothing.
+// An execution path holds the state of a plan and moves it, as a Simulation asks: `Fused` (in
+// compute shaders of OpenGL 4.3, or in fragments of 3.3) or `PingPong` (OpenGL 3.3). What a path does not
+// have it answers with nothing.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,9 @@
 #include "simulate/fused.h"
 
+#include <algorithm>
+
 #include "gpu/buffer.h"
+#include "gpu/gl.h"
 
 namespace shoal {
 
@@ -21,104 +24,125 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
     return out;
 }
 
-// How contact reads the buffers, and changes them.
+// How contact reads the state, and changes it.
 class Fused::Touched : public ContactState {
   public:
     explicit Touched(Fused& path) : path_(&path) {}
-    Form form() const override { return Form::buffers; }
+    Form form() const override { return path_->form_; }
     std::vector<std::string> defines(size_t group) const override {
-        std::vector<std::string> out = path_->plan_->groups[group].layout().defines();
-        if (path_->state[group].hasConstants()) out.emplace_back("CONSTANTS");
+        std::vector<std::string> out = path_->plan_->groups[group].layout().defines(path_->textures());
+        if (path_->state(group).hasConstants()) out.emplace_back("CONSTANTS");
         return out;
     }
-    std::vector<Part> parts(size_t group) const override {
-        std::vector<Part> out;
-        for (const GroupBuffers::Part& part : path_->state[group].parts())
-            out.push_back({part.first, part.count});
-        return out;
+    std::vector<MoleculeRange> parts(size_t group) const override { return path_->state(group).ranges(); }
+    void bind(const Program& program, size_t group, size_t part) override {
+        path_->state(group).bindRead(program, part);
+        if (!program.declares("State")) return;
+        const GroupBuffers& buffers = path_->buffers[group];
+        store(program, "State", buffers.currentState(buffers.parts()[part]));
     }
-    void bind(const Program& program, size_t group, size_t index) override {
-        const GroupBuffers& buffers = path_->state[group];
-        const GroupBuffers::Part& part = buffers.parts()[index];
-        if (program.uses("oldState")) program.texture("oldState", buffers.oldState(part));
-        if (program.uses("oldRecords")) program.texture("oldRecords", part.record);
-        if (program.uses("constants")) program.texture("constants", part.constant);
-        if (program.declares("State")) store(program, "State", buffers.currentState(part));
+    void apply(size_t group, const Gains& gains) override {
+        if (path_->groups_[group].touched == nullptr) return;
+        const Program& program = *path_->groups_[group].touched;
+        program.use();
+        program.set("groupMolecules", path_->plan_->groups[group].count);
+        gains(program);
+        path_->bind(program, group, 0);
+        path_->state(group).run(program, 0, PackedState::Output::state);
+        path_->state(group).flip();
     }
 
   private:
     Fused* path_;
 };
 
-Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options)
-    : plan_(&plan), drawn_(options.drawn) {
+Fused::Fused(gpu::Context& context, const Plan& plan, const Tables& tables, const SimulationOptions& options,
+             Form form)
+    : plan_(&plan), form_(form) {
     const gpu::ContextInfo& info = context.info();
-    const KernelSource source{&context, &plan, &tables};
     // with contact, births and schools other passes change the state as well
-    const bool ahead = options.watchdog && options.asOnGpu.value_or(!info.software) && info.atLeast(4, 4) &&
-                       !plan.contact.any() && !plan.hasLife() && !plan.school.any();
+    ahead_ = !textures() && options.watchdog && options.asOnGpu.value_or(!info.software) &&
+             info.atLeast(4, 4) && !plan.contact.any() && !plan.hasLife() && !plan.school.any();
     using Reading = RunawayWord::Reading;
-    if (options.watchdog)
-        alarm_.emplace(context, !ahead                        ? Reading::waits
-                                : options.asOnGpu.has_value() ? Reading::late
-                                                              : Reading::ahead);
-    std::vector<int> together;
-    const auto atMost = [&](size_t most) {
-        return options.largestPart > 0 ? std::min(most, options.largestPart) : most;
-    };
-    for (size_t g = 0; g < plan.groups.size(); ++g) {
-        const GroupPlan& group = plan.groups[g];
-        KernelOptions kernel;
-        kernel.lanes = chooseLanes(plan, group, options.lanes, limitsOf(info));
-        kernel.sharedBytes = info.maxSharedBytes;
-        // contact still moves what a dispatch leaves, and newborns come after it
-        kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
-        kernel.groupVote = info.groupVote;
-        kernel.software = info.software;
-        kernel.watch = options.watchdog;
-        kernel.ahead = ahead;
-        if (info.software && group.needs.collide)
-            mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
-        together.push_back(workgroupMolecules(group, kernel));
-        state.emplace_back(context, group, options.drawn, options.inPlace,
-                           atMost(size_t(info.maxWorkGroupsX) * size_t(together.back())));
-        kernels_.push_back(std::make_unique<GroupKernel>(source, g, kernel, true, programs_));
-        normals_.push_back(options.drawn && group.needs.normals
-                               ? &kernels_.back()->also(KernelOptions::Work::normals)
-                               : nullptr);
-    }
-    if (plan.hasLife()) births_ = std::make_unique<BufferBirths>(context, plan, tables, state, together);
+    if (options.watchdog && textures()) query_.emplace(context.traffic());
+    if (options.watchdog && !textures())
+        word_.emplace(context, !ahead_                       ? Reading::waits
+                               : options.asOnGpu.has_value() ? Reading::late
+                                                             : Reading::ahead);
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        makeGroup(context, {&context, &plan, &tables}, g, options);
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
         contact_ = std::make_unique<Contact>(context, plan, tables, *contactState_, options.asOnGpu);
     }
-    if (plan.school.any()) school_ = std::make_unique<BufferSchool>(context, plan, tables);
+    if (plan.hasLife() && textures())
+        births_ = std::make_unique<TextureBirths>(context, plan, tables, layers);
+    else if (plan.hasLife())
+        births_ = std::make_unique<BufferBirths>(context, plan, tables, buffers);
+    if (plan.school.any() && textures())
+        school_ = std::make_unique<TextureSchool>(context, plan, tables, layers);
+    else if (plan.school.any())
+        school_ = std::make_unique<BufferSchool>(context, plan, tables, buffers);
 }
 
-void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part,
-                     KernelOptions::Work work) const {
-    const GroupPlan& group = plan_->groups[index];
-    const GroupBuffers& buffers = state[index];
-    const KernelOptions& options = kernels_[index]->options();
-    program.texture("oldState", buffers.oldState(part));
-    program.texture("oldRecords", part.record);
-    if (buffers.hasConstants()) program.texture("constants", part.constant);
-    kernels_[index]->bindTables(program);
-    const bool steps = work == KernelOptions::Work::frame;
-    if (contact_ && steps) contact_->bindLoads(program, index, part.first);
-    if (group.needs.steers && steps) program.texture("steering", part.steering);
-    store(program, "NewState", buffers.newState(part));
-    if (group.needs.records) store(program, "NewRecords", buffers.records(part));
-    if (buffers.hasNormals() && (options.normals || !steps))
-        store(program, "NewNormals", buffers.normals(part));
-    const int together = workgroupMolecules(group, options);
-    if (births_ && births_->has(index) && steps) return births_->dispatchStep(program, index, part);
-    program.dispatch((part.count + together - 1) / together);
+KernelOptions Fused::kernelOptions(const gpu::ContextInfo& info, const GroupPlan& group,
+                                   const SimulationOptions& options) const {
+    KernelOptions out;
+    out.groupVote = info.groupVote;
+    out.software = info.software;
+    if (textures()) {
+        out.targets = info.maxColorAttachments;
+        return out;
+    }
+    out.lanes = chooseLanes(*plan_, group, options.lanes, limitsOf(info));
+    out.sharedBytes = info.maxSharedBytes;
+    // contact still moves what a dispatch leaves, and newborns come after it
+    out.normals = options.drawn && !plan_->contact.any() && !group.needs.life;
+    out.watch = options.watchdog;
+    out.ahead = ahead_;
+    return out;
+}
+
+void Fused::makeGroup(gpu::Context& context, const KernelSource& source, size_t index,
+                      const SimulationOptions& options) {
+    const GroupPlan& plan = plan_->groups[index];
+    const KernelOptions kernel = kernelOptions(context.info(), plan, options);
+    if (kernel.software && plan.needs.collide)
+        mostVertices_ = std::max(mostVertices_, verticesOfLane(plan, kernel));
+    if (textures())
+        layers.emplace_back(context, plan, options.drawn, *kernel.targets);
+    else
+        buffers.emplace_back(context, plan, options.drawn, options.inPlace, workgroupMolecules(plan, kernel),
+                             options.largestPart);
+    Group& group = groups_.emplace_back();
+    const bool moves = !plan.isStill();
+    group.kernel = std::make_unique<GroupKernel>(source, index, kernel, moves, programs_);
+    const auto also = [&](bool need, KernelOptions::Work work) {
+        return need ? &group.kernel->also(work) : nullptr;
+    };
+    group.normals = also(state(index).hasNormals(), KernelOptions::Work::normals);
+    group.watch = also(query_ && moves, KernelOptions::Work::watch);
+    group.touched = also(textures() && plan_->contact.find(index) && moves, KernelOptions::Work::touched);
+}
+
+const PackedState& Fused::state(size_t group) const {
+    if (textures()) return layers[group];
+    return buffers[group];
+}
+
+void Fused::settle() const {
+    if (textures()) return gpu::drawPlainly();
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage, gpu::Barrier::bufferUpdate});
+}
+
+void Fused::bind(const Program& program, size_t group, size_t range) const {
+    state(group).bindRead(program, range);
+    groups_[group].kernel->bindTables(program);
 }
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
-    if (school_) school_->step(frame, state, timers);
+    if (school_) school_->step(frame, timers);
     pieces_ = piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
     for (int i = 0; i < pieces_; ++i) {
         const Frame piece = pieceOf(frame, i, pieces_);
@@ -127,55 +151,108 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         if (births_) births_->step(piece, timers);
         if (contact_) contact_->step(piece, timers);
     }
-    if (alarm_) alarm_->endFrame(frame.number);
-    if (contact_ || births_) computeNormals(timers);
+    if (word_) word_->endFrame(frame.number);
+    if (textures() || contact_ || births_) computeNormals(timers);
+    if (query_) watch(timers);
+}
+
+void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
+    const auto timer = timers.time("fused");
+    settle();  // a picture may still read what is written
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        GroupKernel& kernel = *groups_[g].kernel;
+        if (!kernel.moves()) continue;
+        kernel.update(frame);
+        const Program& program = kernel.useStep(frame);
+        if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
+        if (word_) word_->bind(program);
+        const std::vector<MoleculeRange> ranges = state(g).ranges();
+        for (size_t r = 0; r < ranges.size(); ++r) {
+            bind(program, g, r);
+            if (contact_) contact_->bindLoads(program, g, ranges[r].first);
+            if (births_ && births_->has(g))
+                births_->runStep(program, g, r);
+            else
+                state(g).run(program, r, PackedState::Output::state);
+        }
+        state(g).flip();
+    }
+    settle();
+}
+
+void Fused::computeNormals(gpu::PassTimers& timers) {
+    if (std::none_of(groups_.begin(), groups_.end(), [](const Group& group) { return group.normals; }))
+        return;
+    const auto timer = timers.time("normals");
+    settle();
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        if (groups_[g].normals == nullptr) continue;
+        groups_[g].normals->use();
+        for (size_t r = 0; r < state(g).ranges().size(); ++r) {
+            bind(*groups_[g].normals, g, r);
+            state(g).run(*groups_[g].normals, r, PackedState::Output::normals);
+        }
+    }
+    settle();
+}
+
+// Nothing is drawn: the target is the side that is not read, with its colours masked.
+void Fused::watch(gpu::PassTimers& timers) {
+    const auto timer = timers.time("watch");
+    const RunawayQuery::Asking asking(*query_);
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        if (groups_[g].watch == nullptr) continue;
+        groups_[g].watch->use();
+        bind(*groups_[g].watch, g, 0);
+        state(g).run(*groups_[g].watch, 0, PackedState::Output::nothing);
+    }
+}
+
+std::optional<int> Fused::framesSinceAlarm(bool waits) {
+    if (query_) return query_->framesSince();
+    return word_ ? word_->framesSince(waits) : std::nullopt;
 }
 
 // The kernels of these frames have changed nothing.
 void Fused::goBack(int frames) {
     if (frames == 0) return;
-    alarm_->goBack(frames);
-    for (GroupBuffers& group : state)
-        if (frames % 2 == 1) group.flip();
+    word_->goBack(frames);
+    for (size_t g = 0; g < groups_.size(); ++g)
+        if (frames % 2 == 1 && groups_[g].kernel->moves()) state(g).flip();
 }
 
-void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
-    const auto timer = timers.time("fused");
-    gpu::barrier(
-        {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written
-    for (size_t g = 0; g < state.size(); ++g) {
-        kernels_[g]->update(frame);
-        const Program& program = kernels_[g]->useStep(frame);
-        if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
-        if (alarm_) alarm_->bind(program);
-        for (const GroupBuffers::Part& part : state[g].parts())
-            dispatch(program, g, part, KernelOptions::Work::frame);
-        state[g].flip();
+void Fused::disarm() {
+    if (query_) query_->disarm();
+    if (word_) word_->disarm();
+}
+
+std::optional<std::vector<GroupState>> Fused::readBefore() const {
+    if (births_) return {};                 // newborns have taken places since
+    if (school_) return {};                 // the muscles' clocks have moved on
+    if (pieces_ > 1) return {};             // the side of a step within the frame
+    if (textures() && contact_) return {};  // which gives the state another side
+    std::vector<GroupState> out;
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const GroupPlan& group = plan_->groups[g];
+        if (!groups_[g].kernel->moves()) {
+            out.push_back(state(g).read(group));
+            continue;
+        }
+        if (!state(g).hasBefore()) return {};
+        out.push_back(state(g).readBefore(group));
+        if (!textures()) undoRecords(group, out.back());
     }
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage, gpu::Barrier::bufferUpdate});
+    return out;
 }
 
 void Fused::write(size_t group, const GroupState& groupState, double time) {
-    state[group].write(plan_->groups[group], groupState);
+    state(group).write(plan_->groups[group], groupState);
     if (plan_->groups[group].needs.life) births_->write(group, groupState, time);
 }
 
 GroupState Fused::read(size_t group) const {
-    GroupState out = state[group].read(plan_->groups[group]);
+    GroupState out = state(group).read(plan_->groups[group]);
     if (plan_->groups[group].needs.life) births_->read(group, out);
-    return out;
-}
-
-std::optional<std::vector<GroupState>> Fused::readBefore() const {
-    if (births_) return {};      // newborns have taken places since
-    if (school_) return {};      // the muscles' clocks have moved on
-    if (pieces_ > 1) return {};  // the side of a step within the frame
-    std::vector<GroupState> out;
-    for (size_t g = 0; g < state.size(); ++g) {
-        if (state[g].inPlace()) return {};
-        out.push_back(state[g].readBefore(plan_->groups[g]));
-        undoRecords(plan_->groups[g], out.back());
-    }
     return out;
 }
 
@@ -185,19 +262,6 @@ bool Fused::changeLife(size_t group, const Lifecycle& life) {
 
 bool Fused::changeSchool(size_t group, const School& school) {
     return school_ && school_->change(group, school);
-}
-
-void Fused::computeNormals(gpu::PassTimers& timers) {
-    if (!drawn_) return;
-    const auto timer = timers.time("normals");
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
-    for (size_t g = 0; g < state.size(); ++g) {
-        if (normals_[g] == nullptr) continue;
-        normals_[g]->use();
-        for (const GroupBuffers::Part& part : state[g].parts())
-            dispatch(*normals_[g], g, part, KernelOptions::Work::normals);
-    }
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
 }
 
 }  // namespace shoal

@@ -1,5 +1,5 @@
-// The programs of one group's fused step, with all that they are given beside the state: for a dispatch of
-// compute shaders (simulate/fused.h), or for draws of fragment shaders (simulate/fragments.h).
+// The programs of one group's fused step (simulate/fused.h), with all that they are given beside the state:
+// for a dispatch of compute shaders, or for draws of fragment shaders.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 #include "simulate/layer_state.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/error.h"
 #include "gpu/buffer.h"
@@ -77,6 +78,23 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
     std::vector<gpu::ColorTarget> all;
     addLayers(normals_, all);
     newNormals_ = drawsInto(context, all, targets, "normals");
+}
+
+void GroupLayers::bindRead(const gpu::Program& program, size_t) const {
+    if (program.uses("oldState")) program.texture("oldState", state());
+    if (program.uses("oldRecords")) program.texture("oldRecords", records());
+    if (program.uses("constants")) program.texture("constants", constants_);
+    if (program.uses("steering")) program.texture("steering", steering());
+}
+
+void GroupLayers::draw(const gpu::Program& program, Output output, int molecules, int vertices) const {
+    if (molecules == 0) return;
+    const std::vector<LayerDraw>& all = output == Output::normals ? newNormals_ : newState_[size_t(current_)];
+    for (const LayerDraw& draw : std::span(all).first(output == Output::nothing ? 1 : all.size())) {
+        if (program.uses("firstStored")) program.set("firstStored", draw.first);
+        draw.target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
+        gpu::drawVertices(vertices);
+    }
 }
 
 template <typename Self>

@@ -39,18 +39,22 @@ class GroupLayers : public PackedState {
     const gpu::Texture& records() const { return records_[records_[1] ? size_t(current_) : 0]; }
     const gpu::Texture& constants() const { return constants_; }
     const gpu::Texture& normals() const { return normals_; }
-    // One for each draw of a frame, into the other side; and of normals.
-    const std::vector<LayerDraw>& newState() const { return newState_[size_t(current_)]; }
-    const std::vector<LayerDraw>& newNormals() const { return newNormals_; }
     // Where molecules are born, one for each draw of births: into the side that was written last.
     const std::vector<LayerDraw>& newborns() const { return newborns_[size_t(current_)]; }
-    void flip() { current_ = 1 - current_; }
+    std::vector<MoleculeRange> ranges() const override { return {{0, count_}}; }
+    void bindRead(const gpu::Program& program, size_t) const override;
+    void run(const gpu::Program& program, size_t, Output output) const override {
+        draw(program, output, count_, 3);
+    }
+    // Draws the rows of so many molecules, as one triangle or what the vertex shader makes of more vertices.
+    void draw(const gpu::Program& program, Output output, int molecules, int vertices) const;
+    void flip() override { current_ = 1 - current_; }
+    bool hasBefore() const override { return true; }
     // What steers them, where they steer; one draw writes its other side.
     const gpu::Texture& steering() const { return steering_[size_t(steeringNow_)]; }
     const gpu::Framebuffer& newSteering() const { return newSteering_[size_t(steeringNow_)]; }
     void flipSteering() { steeringNow_ = 1 - steeringNow_; }
 
-    int count() const { return count_; }  // molecules
     bool hasConstants() const override { return bool(constants_); }
     bool hasNormals() const override { return bool(normals_); }
 
@@ -67,7 +71,7 @@ class GroupLayers : public PackedState {
     int steeringNow_ = 0;
     std::array<gpu::Texture, 2> state_, records_, steering_;
     gpu::Texture constants_, normals_;
-    std::array<std::vector<LayerDraw>, 2> newState_, newborns_;
+    std::array<std::vector<LayerDraw>, 2> newState_, newborns_;  // one for each draw, from this side
     std::vector<LayerDraw> newNormals_;
     std::array<gpu::Framebuffer, 2> newSteering_;
 };

@@ -7,12 +7,29 @@
 #include <vector>
 
 #include "compile/plan.h"
+#include "gpu/program.h"
 
 namespace shoal {
+
+struct MoleculeRange {
+    int first = 0, count = 0;
+};
 
 class PackedState {
   public:
     virtual ~PackedState() = default;
+
+    // What one dispatch, or the draws of one pass, take of the molecules.
+    virtual std::vector<MoleculeRange> ranges() const = 0;
+    // Gives a program in use what it reads of a range: the state, records, constants and steering.
+    virtual void bindRead(const gpu::Program& program, size_t range) const = 0;
+    // Runs a program in use over a range, into the other side of the state, the normals, or nothing (a draw
+    // inside a query).
+    enum class Output { state, normals, nothing };
+    virtual void run(const gpu::Program& program, size_t range, Output output) const = 0;
+    virtual void flip() = 0;
+    // Whether the side before the last frame is kept.
+    virtual bool hasBefore() const = 0;
 
     void write(const GroupPlan& group, const GroupState& state);
     GroupState read(const GroupPlan& group) const { return readSide(group, false); }

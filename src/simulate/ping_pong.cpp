@@ -68,7 +68,9 @@ class VertexTexels : public ContactState {
     Form form() const override { return Form::textures; }
     bool fused() const override { return false; }
     std::vector<std::string> defines(size_t) const override { return {}; }
-    std::vector<Part> parts(size_t group) const override { return {{0, plan_->groups[group].count}}; }
+    std::vector<MoleculeRange> parts(size_t group) const override {
+        return {{0, plan_->groups[group].count}};
+    }
     void bind(const Program& program, size_t group, size_t) override {
         state_->setGroup(program, group);
         if (program.uses("topology")) program.texture("topology", tables_->topology);

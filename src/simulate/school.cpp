@@ -24,21 +24,11 @@ size_t mostInTextures(const gpu::ContextInfo& info) {
 
 }  // namespace
 
-BufferSchool::BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
+BufferSchool::BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables,
+                           const std::vector<GroupBuffers>& state)
     : SchoolPasses(context, plan, tables, Form::buffers, mostInBuffers(context.info())),
-      sort_(context, size_t(plan.school.entries)) {}
-
-void BufferSchool::findBodies(size_t index) {
-    const SchoolBodies& bodies = school_->bodies[index];
-    const GroupBuffers& state = (*state_)[bodies.group];
-    const Program& program = useBodies(index);
-    for (const GroupBuffers::Part& part : state.parts()) {
-        program.texture("oldState", state.oldState(part));
-        program.texture("oldRecords", part.record);
-        program.set("firstBody", bodies.first + part.first);
-        arrays_.run(program, 0, part.count);
-    }
-}
+      sort_(context, size_t(plan.school.entries)),
+      state_(&state) {}
 
 void BufferSchool::sortKeys() {
     arrays_.run(useKeys(), 0, school_->entries);
@@ -54,28 +44,16 @@ void BufferSchool::steer(size_t index, const Frame& frame) {
     arrays_.run(program, 0, school_->grids[member.grid].entries);
 }
 
-void BufferSchool::step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
-    state_ = &state;
-    run(frame, timers);
-}
-
-TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables)
+TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables,
+                             std::vector<GroupLayers>& state)
     : SchoolPasses(context, plan, tables, Form::textures, mostInTextures(context.info())),
       sort_(context, NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_,
-            NetworkSort::Ties::byIndex) {
+            NetworkSort::Ties::byIndex),
+      state_(&state) {
     starts_ = Program(context, optionsOf("sort/starts", "school starts", nullptr));
     gpu::ProgramOptions steered = optionsOf("school/steered", "school steering", nullptr);
     steered.defines.push_back(concat("STATE_WIDTH ", stateWidth));
     steered_ = Program(context, steered);
-}
-
-void TextureSchool::findBodies(size_t index) {
-    const SchoolBodies& bodies = school_->bodies[index];
-    const Program& program = useBodies(index);
-    program.texture("oldState", (*state_)[bodies.group].state());
-    program.texture("oldRecords", (*state_)[bodies.group].records());
-    program.set("firstBody", bodies.first);
-    arrays_.run(program, bodies.first, plan_->groups[bodies.group].count);
 }
 
 void TextureSchool::sortKeys() {
@@ -103,12 +81,6 @@ void TextureSchool::steer(size_t index, const Frame& frame) {
     state.newSteering().bind();
     gpu::drawVertices(3);
     state.flipSteering();
-}
-
-void TextureSchool::step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers) {
-    gpu::drawPlainly();
-    state_ = &state;
-    run(frame, timers);
 }
 
 }  // namespace shoal

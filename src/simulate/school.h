@@ -14,37 +14,33 @@ namespace shoal {
 
 class BufferSchool : public SchoolPasses {
   public:
-    // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
-    BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables);
-
-    // Steers the molecules of `state` for this frame.
-    void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
+    // Borrows all but the context. Error: more molecules than the context can hold; out of memory.
+    BufferSchool(gpu::Context& context, const Plan& plan, const Tables& tables,
+                 const std::vector<GroupBuffers>& state);
 
   private:
-    void findBodies(size_t bodies) override;
+    const PackedState& stateOf(size_t group) const override { return (*state_)[group]; }
     void sortKeys() override;
     void steer(size_t member, const Frame& frame) override;
 
     RadixSort sort_;
-    const std::vector<GroupBuffers>* state_ = nullptr;
+    const std::vector<GroupBuffers>* state_;
 };
 
 class TextureSchool : public SchoolPasses {
   public:
-    // Borrows the plan and the tables. Error: more molecules than the context can hold; out of memory.
-    TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables);
-
-    // Steers the molecules of `state` for this frame; blending, tests and masks are off in it.
-    void step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers);
+    // Borrows all but the context. Error: more molecules than the context can hold; out of memory.
+    TextureSchool(gpu::Context& context, const Plan& plan, const Tables& tables,
+                  std::vector<GroupLayers>& state);
 
   private:
-    void findBodies(size_t bodies) override;
+    const PackedState& stateOf(size_t group) const override { return (*state_)[group]; }
     void sortKeys() override;
     void steer(size_t member, const Frame& frame) override;
 
     NetworkSort sort_;
     gpu::Program starts_, steered_;
-    std::vector<GroupLayers>* state_ = nullptr;
+    std::vector<GroupLayers>* state_;
 };
 
 }  // namespace shoal

@@ -73,7 +73,8 @@ gpu::ProgramOptions SchoolPasses::optionsOf(const std::string& file, const std::
     return out;
 }
 
-void SchoolPasses::run(const Frame& frame, gpu::PassTimers& timers) {
+void SchoolPasses::step(const Frame& frame, gpu::PassTimers& timers) {
+    if (hasTextures()) gpu::drawPlainly();
     {
         const auto timer = timers.time("school grid");
         arrays_.settle();
@@ -119,10 +120,18 @@ glm::ivec4 SchoolPasses::rangeOf(size_t g) const {
     return {grid.firstEntry, grid.entries, grid.firstKey, grid.keys};
 }
 
-const Program& SchoolPasses::useBodies(size_t bodies) const {
-    const Program& program = arrays_.with(*bodyPrograms_[bodies]);
+void SchoolPasses::findBodies(size_t index) {
+    const SchoolBodies& bodies = school_->bodies[index];
+    const Program& program = arrays_.with(*bodyPrograms_[index]);
     program.set("origin", glm::vec3(school_->origin));
-    return program;
+    const PackedState& state = stateOf(bodies.group);
+    const std::vector<MoleculeRange> ranges = state.ranges();
+    for (size_t r = 0; r < ranges.size(); ++r) {
+        const int first = bodies.first + ranges[r].first;
+        state.bindRead(program, r);
+        program.set("firstBody", first);
+        arrays_.run(program, first, ranges[r].count);
+    }
 }
 
 const Program& SchoolPasses::useKeys() const {

@@ -19,6 +19,7 @@
 #include "gpu/arrays.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/packed_state.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 
@@ -30,6 +31,8 @@ class SchoolPasses {
     // Other numbers for a group's school, from the next step on. False, and nothing changes: it has none, or
     // what differs needs another plan (whom it flees or hunts, whether there are walls).
     bool change(size_t group, const School& school);
+    // Steers all molecules for this frame.
+    void step(const Frame& frame, gpu::PassTimers& timers);
 
   protected:
     using Form = gpu::ArrayTable::Form;
@@ -38,10 +41,7 @@ class SchoolPasses {
     // entries; out of memory.
     SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables, Form form, size_t most);
 
-    // Steers all molecules for this frame.
-    void run(const Frame& frame, gpu::PassTimers& timers);
     // In use, with their numbers and all arrays.
-    const gpu::Program& useBodies(size_t bodies) const;
     const gpu::Program& useKeys() const;
     const gpu::Program& useSteer(size_t member, const Frame& frame) const;
     glm::ivec4 rangeOf(size_t grid) const;  // first slot, slots, first key, keys
@@ -58,7 +58,7 @@ class SchoolPasses {
     gpu::Arrays arrays_;
 
   private:
-    virtual void findBodies(size_t bodies) = 0;
+    virtual const PackedState& stateOf(size_t group) const = 0;
     virtual void sortKeys() = 0;
     virtual void steer(size_t member, const Frame& frame) = 0;
 
@@ -67,6 +67,7 @@ class SchoolPasses {
         School school;
     };
 
+    void findBodies(size_t index);
     void makeSteer(const SchoolMember& member);
     void setRules(size_t member, const Frame& frame) const;
     bool hasTextures() const { return table_.form() == Form::textures; }

@@ -5,7 +5,6 @@
 
 #include "compile/pack.h"
 #include "core/contract.h"
-#include "simulate/fragments.h"
 #include "simulate/fused.h"
 #include "simulate/ping_pong.h"
 #include "simulate/self_check.h"
@@ -51,8 +50,11 @@ PathChoice Simulation::chooseRight(const SimulationOptions& options) {
 }
 
 std::unique_ptr<ExecutionPath> Simulation::makePath() {
-    const auto fused = [&] { return std::make_unique<Fused>(*context_, plan_, tables_, options_); };
-    const auto fragments = [&] { return std::make_unique<Fragments>(*context_, plan_, tables_, options_); };
+    const auto make = [&](Fused::Form form) {
+        return std::make_unique<Fused>(*context_, plan_, tables_, options_, form);
+    };
+    const auto fused = [&] { return make(Fused::Form::buffers); };
+    const auto fragments = [&] { return make(Fused::Form::textures); };
     if (choice_.path == Path::fragments) return fragments();
     if (choice_.path == Path::pingPong)
         return std::make_unique<PingPong>(*context_, plan_, tables_, options_);

@@ -74,10 +74,9 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             Simulation whole(context, plan, {.path = Path::fused, .inPlace = inPlace, .lanes = lanes});
             REQUIRE(whole.state().buffers->front().parts().size() == 1);
 
-            const Tables tables(context, plan, Tables::Form::buffer);
-            Fused split(context, plan, tables, {.drawn = true, .inPlace = inPlace, .lanes = lanes});
-            split.state[0] = GroupBuffers(context, plan.groups[0], true, inPlace, 300);
-            const std::vector<GroupBuffers::Part>& parts = split.state[0].parts();
+            Simulation split(context, plan,
+                             {.path = Path::fused, .inPlace = inPlace, .lanes = lanes, .largestPart = 300});
+            const std::vector<GroupBuffers::Part>& parts = split.state().buffers->front().parts();
             REQUIRE(parts.size() >= 3);
             int covered = 0;
             for (const GroupBuffers::Part& part : parts) {
@@ -88,26 +87,20 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             }
             CHECK(covered == 1030);
 
-            gpu::PassTimers timers(context, gpu::PassTimers::Mode::off);
-            split.state[0].write(plan.groups[0], plan.groups[0].start);
-            split.computeNormals(timers);
-            CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
+            CHECK(split.snapshot(0).normals == whole.snapshot(0).normals);
             for (int frame = 0; frame < 12; ++frame) {
-                const Parameters& parameters = whole.parameters;
-                split.step({whole.time(), whole.time() + parameters.frameTime,
-                            parameters.frameTime / parameters.substeps, frame, parameters},
-                           timers);
+                split.frame();
                 whole.frame();
             }
-            CHECK(split.state[0].read(plan.groups[0]) == whole.save().groups[0]);
-            CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
+            CHECK(split.save().groups[0] == whole.save().groups[0]);
+            CHECK(split.snapshot(0).normals == whole.snapshot(0).normals);
 
             RenderOptions size;
             size.width = 160, size.height = 120;
             Renderer renderer(context, scene, plan, size);
             renderer.draw(whole.state(), View::of(scene.camera));
             const Image expected = renderer.capture();
-            renderer.draw({nullptr, &split.state}, View::of(scene.camera));
+            renderer.draw(split.state(), View::of(scene.camera));
             CHECK(renderer.capture().pixels == expected.pixels);
             renderer.draw(Simulation(context, plan, {.path = Path::fused}).state(), View::of(scene.camera));
             CHECK(renderer.capture().pixels != expected.pixels);

@@ -66,14 +66,14 @@ class ContactData : public ContactFacts {
     struct Spheres {
         int first, count;
     };
-    Spheres spheresOf(const ContactGroup& group, const ContactState::Part& part) const {
+    Spheres spheresOf(const ContactGroup& group, const MoleculeRange& part) const {
         return {group.firstSphere + part.first * group.spheresOf, part.count * group.spheresOf};
     }
     // Calls visit(number of the group with contact, number of its part, part) for the parts of all groups.
     template <typename Visit>
     void forParts(const Visit& visit) const {
         for (size_t g = 0; g < contact->groups.size(); ++g) {
-            const std::vector<ContactState::Part> parts = state->parts(contact->groups[g].group);
+            const std::vector<MoleculeRange> parts = state->parts(contact->groups[g].group);
             for (size_t p = 0; p < parts.size(); ++p)
                 visit(g, p, parts[p]);
         }

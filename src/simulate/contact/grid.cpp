@@ -36,7 +36,7 @@ void ContactGrid::setStep(const Program& program, const ContactGroup& group, con
 }
 
 void ContactGrid::makeSpheres(const Frame& frame, bool wakes, bool isStaggered) {
-    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
+    data_->forParts([&](size_t g, size_t p, const MoleculeRange& part) {
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].spheres, group, p);
         program.set("label", int(uint32_t(g) << 26) + part.first);
@@ -56,7 +56,7 @@ void ContactGrid::makeSpheres(const Frame& frame, bool wakes, bool isStaggered) 
 }
 
 void ContactGrid::makeColliders(const Frame& frame) {
-    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
+    data_->forParts([&](size_t g, size_t p, const MoleculeRange& part) {
         if (!groups_[g].colliders) return;
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].colliders, group, p);

@@ -36,7 +36,7 @@ float ContactRest::wakeSpeed(const ContactStep& times) const {
 void ContactRest::run(const ContactStep& times) {
     data_->withResponse(loadChange_, times).set("wakeSpeed", wakeSpeed(times));
     data_->arrays.runIndirect(loadChange_, "markGroups", ContactData::markedGroups);
-    data_->forParts([&](size_t g, size_t p, const ContactState::Part& part) {
+    data_->forParts([&](size_t g, size_t p, const MoleculeRange& part) {
         if (!groups_[g].rest) return;
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].rest, group, p);

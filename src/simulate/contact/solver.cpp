@@ -38,7 +38,7 @@ void ContactSolver::forBodies(const Visit& visit) const {
         ContactData::Spheres spheres;
     };
     std::optional<Run> run;
-    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
+    data_->forParts([&](size_t g, size_t part, const MoleculeRange& molecules) {
         const std::vector<ContactGroup>& groups = data_->contact->groups;
         const ContactData::Spheres more = data_->spheresOf(groups[g], molecules);
         const bool together = run && !data_->textures && data_->isRigid(groups[run->group]) &&
@@ -140,7 +140,7 @@ void ContactSolver::store(const ContactStep& times) {
 }
 
 void ContactSolver::apply(const ContactStep& times) {
-    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
+    data_->forParts([&](size_t g, size_t part, const MoleculeRange& molecules) {
         const ContactGroup& group = data_->contact->groups[g];
         const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
         const Program& program = data_->withPart(groups_[g].apply, group, part);
@@ -158,7 +158,7 @@ void ContactSolver::apply(const ContactStep& times) {
 }
 
 void ContactSolver::applyGains(const ContactStep& times) {
-    data_->forParts([&](size_t g, size_t part, const ContactState::Part& molecules) {
+    data_->forParts([&](size_t g, size_t part, const MoleculeRange& molecules) {
         const ContactGroup& group = data_->contact->groups[g];
         const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
         const bool many = data_->manyAct(group);

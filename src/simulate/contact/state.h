@@ -7,6 +7,7 @@
 
 #include "gpu/array_table.h"
 #include "gpu/program.h"
+#include "simulate/packed_state.h"
 
 namespace shoal {
 
@@ -20,11 +21,8 @@ class ContactState {
     virtual bool fused() const { return true; }
     // The defines with which shaders read a group.
     virtual std::vector<std::string> defines(size_t group) const = 0;
-    // Molecules that one pass may take.
-    struct Part {
-        int first, count;
-    };
-    virtual std::vector<Part> parts(size_t group) const = 0;
+    // What one pass may take.
+    virtual std::vector<MoleculeRange> parts(size_t group) const = 0;
     // Gives a program in use what it reads of a part of the state and, with buffers, changes.
     virtual void bind(const gpu::Program& program, size_t group, size_t part) = 0;
     // In fragments: adds to the vertices of a group what their spheres have gained; `give` gives a program in
