@@ -14,10 +14,6 @@ import sys
 root = pathlib.Path(__file__).resolve().parent.parent
 sizes, switches = root / "tests/sizes.txt", root / "shaders/switches.txt"
 most_lines, most_function, most_shader = 450, 90, 200
-# The rooms where names may still be function words; in all others such a name is an error.
-rooms_with_function_words = {"src/gpu", "src/render", "src/simulate", "shaders/births", "shaders/fused", "shaders/particles",
-                             "shaders/passes", "shaders/physics", "shaders/render", "shaders/school", "shaders/sort",
-                             "shaders/step", "shaders/water"}
 switch_head = "# What conditions of shaders ask for: the switch | who sets it | which files of shaders read it | when it is set"
 control = re.compile(r"\s*(?:\} )?(?:if|for|while|do|else|switch|try|catch|case|default)\b")
 container = re.compile(r"(?:template <.*> *)?(?:inline )?(?:namespace|struct|class|enum|union|extern \"C\")\b")
@@ -73,7 +69,7 @@ def functions(text):
 
 
 def function_words(files):
-    """Names that are function words, as file, line and name of each declaration."""
+    """Errors: names that are function words, with file and line of each declaration."""
     found = []
     for file in files:
         text = no_code.sub(lambda match: "" if match[0].startswith("//") else '""' + "\n" * match[0].count("\n"), text_of(file))
@@ -82,15 +78,9 @@ def function_words(files):
             before = re.search(r"(\w+)\W*$", text[:start])
             if not before or before[1] not in ("return", "case", "else", "throw", "new", "delete"):
                 line = text.count("\n", 0, start) + 1
-                found.append(f"{file.relative_to(root)}:{line}: {match[match.lastindex]}")
+                found.append(f"{file.relative_to(root)}:{line}: {match[match.lastindex]} is a function word: a name says what the "
+                             "thing is")
     return found
-
-
-def wrong_names(room, names):
-    """Errors: names that the room may not have, or that it may have such names and has none."""
-    if room in rooms_with_function_words:
-        return [] if names else [f"{room} has no name that is a function word: tests/sizes.py need not allow them"]
-    return [f"{name} is a function word: a name says what the thing is" for name in names]
 
 
 def names_in(condition_text):
@@ -130,15 +120,14 @@ def measure():
     rooms = collections.defaultdict(list)
     for file in files_of("src", ".h", ".cpp"):
         rooms[room_of(file, "src")].append(file)
-    rows.append("room | lines | largest file | headers | sources without a header of their name | names that are function words")
+    rows.append("room | lines | largest file | headers | sources without a header of their name")
     for room, files in sorted(rooms.items()):
         lines = {f: text_of(f).count("\n") for f in files}
         largest = max(lines.values())
         headers = {f.with_suffix("") for f in files if f.suffix == ".h"}
         alone = [f for f in files if f.suffix == ".cpp" and f.with_suffix("") not in headers]
-        names = function_words(files)
-        beyond += wrong_names(f"src/{room}", names)
-        rows.append(f"{room} | {sum(lines.values())} | {largest} | {len(headers)} | {len(alone)} | {len(names)}")
+        beyond += function_words(files)
+        rows.append(f"{room} | {sum(lines.values())} | {largest} | {len(headers)} | {len(alone)}")
         total += sum(lines.values())
     for file in files_of("src", ".h", ".cpp") + files_of("tests", ".h", ".cpp"):
         text = text_of(file)
@@ -149,15 +138,14 @@ def measure():
             if length > most_function:
                 beyond.append(f"{where}: {name} has {length} lines; at most {most_function} are allowed")
     readers, _, conditions = read_switches()
-    rows.append("shaders | lines | largest file | files | conditions | names that are function words")
+    rows.append("shaders | lines | largest file | files | conditions")
     rooms = collections.defaultdict(list)
     for file in shader_files():
         rooms[room_of(file, "shaders")].append(file)
     for room, files in sorted(rooms.items()):
         lines = {f: text_of(f).count("\n") for f in files}
-        names = function_words(files)
-        beyond += wrong_names(f"shaders/{room}", names)
-        rows.append(f"{room} | {sum(lines.values())} | {max(lines.values())} | {len(files)} | {conditions[room]} | {len(names)}")
+        beyond += function_words(files)
+        rows.append(f"{room} | {sum(lines.values())} | {max(lines.values())} | {len(files)} | {conditions[room]}")
         total += sum(lines.values())
         for file, count in lines.items():
             if count > most_shader:

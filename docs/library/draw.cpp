@@ -31,7 +31,7 @@ int main() {
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
         for (int i = 0; i < 20; ++i)
             simulation.frame();
-        renderer.draw(simulation.state(), shoal::View::of(scene.camera, simulation.time()));
+        renderer.draw(simulation.state(), shoal::View::fromCamera(scene.camera, simulation.time()));
         renderer.present(width, height, framebuffer);
 
         std::vector<unsigned char> pixels(size_t(width) * height * 4);

@@ -14,7 +14,7 @@ int sourceOf(int run, int j)
 
 // Returns the emitter of newborn i, or -1 where another dispatch makes it, and sets its seed, the molecule whose death emits
 // it, if one does, and its birth in s from the frame's start.
-int findRun(int i, out Source source, out float at)
+int findRun(int i, out Source source, out float birthTime)
 {
     source = Source(0, 0.0);
 #ifdef DEATH_RUNS
@@ -31,7 +31,7 @@ int findRun(int i, out Source source, out float at)
         readDeath(from.x, source.molecule, label, source.since);
         source.since = min(source.since, frameDuration);
         seed = hashSeed(hashSeed(uint(abs(label)) ^ uint(groupSeed), uint(from.x)), uint(j % from.y)) >> 8u;
-        at = frameDuration - source.since;
+        birthTime = frameDuration - source.since;
         return from.x;
     }
 #endif
@@ -42,6 +42,6 @@ int findRun(int i, out Source source, out float at)
     int j = i - runs[r].x;
     seed = hashSeed(hashSeed(uint(groupSeed), uint(runs[r].y)), uint(runs[r].z) + uint(j)) >> 8u;
     float moment = runs[r].w > 0 ? float(j / max(runs[r].w, 1)) : drawn(seed, bornTime);
-    at = clamp(runTimes[r].x + runTimes[r].y * moment, 0.0, frameDuration);
+    birthTime = clamp(runTimes[r].x + runTimes[r].y * moment, 0.0, frameDuration);
     return runs[r].y;
 }

@@ -118,13 +118,13 @@ int newborn(int i)
 #endif
     loadParameters();
     Source source;
-    float at;
-    int emitter = findRun(i, source, at);
+    float birthTime;
+    int emitter = findRun(i, source, birthTime);
     if (emitter < 0) return -1;
     Start start;
-    emitFrom(emitter, seed, at - 0.5 * frameDuration, source, start);
+    emitFrom(emitter, seed, birthTime - 0.5 * frameDuration, source, start);
     shape(start);
-    age = frameDuration - at;
+    age = frameDuration - birthTime;
     span = mix(lifeSpan.x, lifeSpan.y, drawn(seed, bornLife));
     flyOn(age);
     return place;

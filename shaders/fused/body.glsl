@@ -59,8 +59,8 @@ void push(inout Body body, vec3 arm, vec3 before, vec3 alone, vec4 struck, vec3 
           inout vec3 tangent)
 {
     vec3 n = struck.xyz;
-    vec3 now = before + body.velocity + cross(body.spin, arm);
-    float asked = normal + dot(alone - now, n) / yielding(body, arm, n);
+    vec3 moving = before + body.velocity + cross(body.spin, arm);
+    float asked = normal + dot(alone - moving, n) / yielding(body, arm, n);
     float change = max(asked, 0.0) - normal;
     normal += change;
     body.velocity += n * (change * body.perMass);

@@ -55,16 +55,16 @@ int sharedIndex(int array, int number)
 
 vec3 sharedVector(int array, int vertex)
 {
-    int at = sharedIndex(array, 3 * vertex);
-    return vec3(sharedNumbers[at], sharedNumbers[at + LANES], sharedNumbers[at + 2 * LANES]);
+    int index = sharedIndex(array, 3 * vertex);
+    return vec3(sharedNumbers[index], sharedNumbers[index + LANES], sharedNumbers[index + 2 * LANES]);
 }
 
 void setSharedVector(int array, int vertex, vec3 value)
 {
-    int at = sharedIndex(array, 3 * vertex);
-    sharedNumbers[at] = value.x;
-    sharedNumbers[at + LANES] = value.y;
-    sharedNumbers[at + 2 * LANES] = value.z;
+    int index = sharedIndex(array, 3 * vertex);
+    sharedNumbers[index] = value.x;
+    sharedNumbers[index + LANES] = value.y;
+    sharedNumbers[index + 2 * LANES] = value.z;
 }
 
 // The lane's own vertex i, if no other lane has it.

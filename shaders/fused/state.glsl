@@ -99,7 +99,7 @@ void loadUniforms()
 // Returns `now`. Where each lane leaves the loop over the substeps by itself, Mesa's rasteriser keeps a lane's value
 // after the loop only if a turn computes it from the turn before. Any other value becomes that of the turn in which the
 // last lane left.
-vec3 carried(vec3 before, vec3 now) { return !CARRIES || substeps > 0 ? now : before; }
+vec3 carried(vec3 before, vec3 after) { return !CARRIES || substeps > 0 ? after : before; }
 
 vec3 x[VERTICES];       // m, relative to the anchor
 vec3 v[VERTICES];       // m/s

@@ -37,18 +37,18 @@ vec4 colorAt(float age, vec4 first, vec4 change0, vec4 change1, vec4 change2, ve
 // Once: from the first tile at age 0 to the last at age 1.
 vec3 framesOnce(float age, float count, bool blend)
 {
-    float at = blend ? age * (count - 1.0f) : min(age * count, count - 1.0f);
-    float frame = min(floor(at), count - 2.0f);
-    return blend ? vec3(frame, frame + 1.0f, at - frame) : vec3(floor(at), floor(at), 0.0f);
+    float position = blend ? age * (count - 1.0f) : min(age * count, count - 1.0f);
+    float frame = min(floor(position), count - 2.0f);
+    return blend ? vec3(frame, frame + 1.0f, position - frame) : vec3(floor(position), floor(position), 0.0f);
 }
 
 // Again and again. `start`: the share of all tiles at 0 seconds.
 vec3 framesAgain(float seconds, float rate, float start, float count, bool blend)
 {
-    float at = fract(seconds * rate / count + start) * count;
-    float frame = min(floor(at), count - 1.0f);  // rounding may reach count
+    float position = fract(seconds * rate / count + start) * count;
+    float frame = min(floor(position), count - 1.0f);  // rounding may reach count
     float next = frame + 1.0f < count ? frame + 1.0f : 0.0f;
-    return vec3(frame, next, blend ? clamp(at - frame, 0.0f, 1.0f) : 0.0f);
+    return vec3(frame, next, blend ? clamp(position - frame, 0.0f, 1.0f) : 0.0f);
 }
 
 // rad, of what turns by `rate` rad/s, after `blocks` times 64 s and `rest` s: less the whole turns of the blocks, whose

@@ -35,9 +35,9 @@ float insideOf(float outwards)
     return clamp((1.0 - outwards) / max(fwidth(outwards), 1e-4) + 0.5, 0.0, 1.0);
 }
 
-vec4 texelAt(vec2 at)
+vec4 texelAt(vec2 point)
 {
-    vec2 uv = at * 0.5 + 0.5;
+    vec2 uv = point * 0.5 + 0.5;
     vec4 texel = texture(image, vec3(uv, tiles.x));
     if (!FADES) return texel;
     // Mixed by what each covers, so that the colour of what is clear does not count.
@@ -48,19 +48,19 @@ vec4 texelAt(vec2 at)
 }
 
 // The colour, and in a what of the particle covers the pixel, at a place of its square.
-vec4 shownAt(vec2 at)
+vec4 shownAt(vec2 point)
 {
     vec4 shown = vec4(color.rgb, 1.0);
     if (SHAPE == pointsShape) {
-        shown.a = clamp((1.0 - length(at)) * 0.5 * pixels + 0.5, 0.0, 1.0);
+        shown.a = clamp((1.0 - length(point)) * 0.5 * pixels + 0.5, 0.0, 1.0);
     } else if (IMAGE) {
-        vec4 texel = texelAt(at);
+        vec4 texel = texelAt(point);
         shown *= texel;
         if (BLEND == noneBlend) shown.a = clamp((texel.a - 0.5) / max(fwidth(texel.a), 1e-4) + 0.5, 0.0, 1.0);
-        if (SHAPE == spritesShape) shown.a *= insideOf(max(abs(at.x), abs(at.y)));
+        if (SHAPE == spritesShape) shown.a *= insideOf(max(abs(point.x), abs(point.y)));
     } else {
         // A dot is a bell-shaped blot without a kink at its rim or, where it is not blended, a disc.
-        float r2 = dot(at, at);
+        float r2 = dot(point, point);
         float bell = max(1.0 - r2, 0.0);
         shown.a = BLEND == noneBlend ? insideOf(sqrt(r2)) : bell * bell;
     }

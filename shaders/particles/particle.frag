@@ -14,10 +14,10 @@ uniform float perSoftness;     // 1/m
 out vec4 fragment;
 
 // A ball's, but for what faces free, which is a flat sheet.
-vec3 normalAt(vec2 at)
+vec3 normalAt(vec2 point)
 {
     if (FACING == freeFacing) return dot(frame[2], place) > 0.0 ? -frame[2] : frame[2];
-    vec3 ball = vec3(at, sqrt(max(1.0 - dot(at, at), 0.0)));
+    vec3 ball = vec3(point, sqrt(max(1.0 - dot(point, point), 0.0)));
     if (SHAPE == quadsShape) return normalize(frame * ball);
     if (SHAPE == spritesShape) ball.xy = offMiddle() * length(toSquare.xy);  // not turned with the picture
     return normalize(viewToScene * ball);
@@ -25,8 +25,8 @@ vec3 normalAt(vec2 at)
 
 void main()
 {
-    vec2 at = inSquare();
-    vec4 shown = shownAt(at);
+    vec2 point = inSquare();
+    vec4 shown = shownAt(point);
     if (SOFT) {
         // gl_FragCoord.w is 1 / depth.
         float behind = nearest / max(1.0 - texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
@@ -35,7 +35,7 @@ void main()
     if (BLEND == noneBlend ? shown.a < leastCover : shown.a <= 0.0) discard;
 
     vec3 light = shown.rgb;
-    if (LIT) light = shade(surfaceOf(place, normalAt(at), shown.rgb, 0.9));
+    if (LIT) light = shade(surfaceOf(place, normalAt(point), shown.rgb, 0.9));
 
     // Haze veils a particle that hides what is behind it, dims the light of an additive one, and weakens one that
     // filters.

@@ -44,10 +44,10 @@ flat out mat3 frame;  // columns: right, up, towards the eye
 // Smaller ones would come and go between the samples of a pixel.
 const float leastPixels = 1.5;
 
-vec3 unitOr(vec3 v, vec3 otherwise)
+vec3 unitOr(vec3 v, vec3 fallback)
 {
     float lengthSquared = dot(v, v);
-    return lengthSquared > 1e-20 ? v * inversesqrt(lengthSquared) : otherwise;
+    return lengthSquared > 1e-20 ? v * inversesqrt(lengthSquared) : fallback;
 }
 
 vec3 tilesShown(uint seed, vec2 life)

@@ -38,11 +38,11 @@ void main()
     if (stage == 0) x -= shift;
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-    float now = time + stageTime(stage);
+    float moment = time + stageTime(stage);
     vec3 fall = fallAt(anchor, x) + loadOn(own);
-    vec3 a = dragAcceleration(v, fieldAt(anchor, x, now), fall, texelFetch(vertexNormals, texel, 0).xyz);
+    vec3 a = dragAcceleration(v, fieldAt(anchor, x, moment), fall, texelFetch(vertexNormals, texel, 0).xyz);
 #ifdef SPRINGS
-    a += springForces(own.x, own.y, now) * vertexInertia.x;
+    a += springForces(own.x, own.y, moment) * vertexInertia.x;
 #endif
     vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
 #ifdef COLLIDE

@@ -16,9 +16,9 @@ vec3 turnedBack(vec4 q, vec3 v)
 // Every rotation alike, from three numbers uniform in [0, 1) [Shoemake 1992].
 vec4 anyRotation(float u, float v, float w)
 {
-    float one = 6.2831853f * v;
-    float two = 6.2831853f * w;
+    float angleA = 6.2831853f * v;
+    float angleB = 6.2831853f * w;
     float a = sqrt(1.0f - u);
     float b = sqrt(u);
-    return vec4(a * sin(one), a * cos(one), b * sin(two), b * cos(two));
+    return vec4(a * sin(angleA), a * cos(angleA), b * sin(angleB), b * cos(angleB));
 }

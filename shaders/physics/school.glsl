@@ -57,14 +57,14 @@ vec3 courseOf(vec3 wanted, vec3 forward, float steepest)
 }
 
 // rad: the turn from one unit vector to another about its axis; about `otherwise` where they are opposite.
-vec3 turnBetween(vec3 from, vec3 to, vec3 otherwise)
+vec3 turnBetween(vec3 from, vec3 to, vec3 fallback)
 {
     vec3 axis = cross(from, to);
     float sine = sqrt(dot(axis, axis));
     float cosine = dot(from, to);
     float angle = atan(sine, cosine);
     bool opposite = sine < 1e-3f && cosine < 0.0f;
-    return opposite ? otherwise * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
+    return opposite ? fallback * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
 }
 
 // A sine whose frequency is a multiple of 1/256 rad/s, so that all such sines repeat after 512 pi s (wanderPeriod of

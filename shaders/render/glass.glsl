@@ -10,9 +10,9 @@ uniform vec2 tangents;          // of half the field of view
 uniform float refraction;       // index
 uniform float plate;            // m, its thickness
 
-float depthBehind(vec2 at)
+float depthBehind(vec2 uv)
 {
-    return nearest / max(1.0 - texture(sceneDepth, at).r, 1e-6);
+    return nearest / max(1.0 - texture(sceneDepth, uv).r, 1e-6);
 }
 
 // Returns where in the picture a place lies, relative to the eye.

@@ -19,11 +19,11 @@ void main()
 {
     int molecule;
     bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
-    vec3 at = drawnPlace(molecule, gl_VertexID);
+    vec3 vertex = drawnPlace(molecule, gl_VertexID);
     uv = cornerUv;
-    place = at;
+    place = vertex;
     normal = vertexNormal(molecule, gl_VertexID);
     color = instanceColor(molecule);
-    gl_Position = toClip * vec4(at, 1.0);
+    gl_Position = toClip * vec4(vertex, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

@@ -47,9 +47,9 @@ void main()
     if (area == 0.0) return;  // a picture of one or two texels
     normal /= area;
     // Ordered dithering: the turns of every two by two texels are a quarter apart.
-    ivec2 one = ivec2(gl_FragCoord.xy) & 1;
-    ivec2 two = ivec2(gl_FragCoord.xy) >> 1 & 1;
-    int order = 8 * (one.x ^ one.y) + 4 * one.y + 2 * (two.x ^ two.y) + two.y;
+    ivec2 low = ivec2(gl_FragCoord.xy) & 1;
+    ivec2 high = ivec2(gl_FragCoord.xy) >> 1 & 1;
+    int order = 8 * (low.x ^ low.y) + 4 * low.y + 2 * (high.x ^ high.y) + high.y;
     float turn = 6.2831853 / 16.0 * float(order);
     float hidden = 0.0;
     for (int i = 0; i < samples; ++i) {

@@ -11,16 +11,16 @@ float likeness(float a, float b)
 // Returns how much of the sky a pixel of the picture sees, by those of the four texels around it that lie as deep.
 float skySeen(ivec2 pixel, float depth)
 {
-    vec2 at = 0.5 * vec2(pixel);
-    ivec2 first = ivec2(floor(at));
-    vec2 share = at - vec2(first);
+    vec2 position = 0.5 * vec2(pixel);
+    ivec2 first = ivec2(floor(position));
+    vec2 share = position - vec2(first);
     ivec2 last = textureSize(occlusion, 0) - 1;
     vec2 sum = vec2(0.0);
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 2; ++x) {
-            vec2 there = texelFetch(occlusion, min(first + ivec2(x, y), last), 0).xy;
+            vec2 other = texelFetch(occlusion, min(first + ivec2(x, y), last), 0).xy;
             vec2 weights = mix(1.0 - share, share, vec2(x, y));
-            sum += weights.x * weights.y * likeness(there.y, depth) * vec2(there.x, 1.0);
+            sum += weights.x * weights.y * likeness(other.y, depth) * vec2(other.x, 1.0);
         }
     return sum.y > 1e-3 ? sum.x / sum.y : 1.0;
 }

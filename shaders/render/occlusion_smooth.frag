@@ -13,8 +13,8 @@ void main()
     vec2 sum = vec2(0.0);
     for (int y = -2; y < 2; ++y)
         for (int x = -2; x < 2; ++x) {
-            vec2 there = texelFetch(occlusion, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xy;
-            sum += likeness(there.y, depth) * vec2(there.x, 1.0);
+            vec2 other = texelFetch(occlusion, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xy;
+            sum += likeness(other.y, depth) * vec2(other.x, 1.0);
         }
     fragment = vec4(sum.x / max(sum.y, 1e-3), depth, 0.0, 1.0);
 }

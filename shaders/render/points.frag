@@ -16,12 +16,12 @@ out vec4 fragment;
 
 void main()
 {
-    vec2 at = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;
-    float r2 = dot(at, at);
+    vec2 point = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;
+    float r2 = dot(point, point);
     float edge = sqrt(r2);
     float covered = clamp((1.0 - edge) / max(fwidth(edge), 1e-4) + 0.5, 0.0, 1.0);
     if (covered <= 0.0) discard;
-    vec3 n = normalize(viewToScene * vec3(at, sqrt(max(1.0 - r2, 0.0))));
+    vec3 n = normalize(viewToScene * vec3(point, sqrt(max(1.0 - r2, 0.0))));
     // Light spreads within the ball: it is shaded as if less of it faced away from the sun.
     n = normalize(mix(n, sunDirection, 0.6 * translucency));
 

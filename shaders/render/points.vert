@@ -15,10 +15,10 @@ void main()
 {
     int molecule;
     bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
-    vec3 at = vertexPlace(molecule, gl_VertexID);
-    gl_Position = toClip * vec4(at, 1.0);
+    vec3 vertex = vertexPlace(molecule, gl_VertexID);
+    gl_Position = toClip * vec4(vertex, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
     gl_PointSize = max(pointSize * pixelsPerMeter / gl_Position.w, 1.0);
-    middle = at;
+    middle = vertex;
     color = instanceColor(molecule);
 }

@@ -2,6 +2,6 @@
 
 void main()
 {
-    vec2 at = gl_PointCoord * 2.0 - 1.0;
-    if (dot(at, at) > 1.0) discard;
+    vec2 point = gl_PointCoord * 2.0 - 1.0;
+    if (dot(point, point) > 1.0) discard;
 }

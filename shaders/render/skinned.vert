@@ -56,13 +56,13 @@ void main()
         sums.along += offsets.y * outward;
         sums.across += offsets.z * outward;
     }
-    vec3 at = first + sums.place;
+    vec3 vertex = first + sums.place;
     uv = cornerUv;
-    place = at;
+    place = vertex;
     vec3 turned = cross(sums.along, sums.across);
     float area = length(turned);
     normal = area > 1e-6 ? turned / area : vec3(0.0);  // zero: the triangle's own is taken
     color = instanceColor(molecule);
-    gl_Position = toClip * vec4(at, 1.0);
+    gl_Position = toClip * vec4(vertex, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

@@ -14,10 +14,10 @@ uint firstKey(int slab, int count)
     uint key = 0u;
     for (int s = 1; s <= slab; ++s) {
         float share = slabCount > 2 ? float(s - 1) / float(slabCount - 2) : 0.5;
-        float at = share * float(count - 1);
-        int i = min(int(at), count - 1);
+        float position = share * float(count - 1);
+        int i = min(int(position), count - 1);
         uint here = orderAt(i).x, next = max(orderAt(min(i + 1, count - 1)).x, here);
-        key = max(key, here + uint(float(next - here) * (at - float(i))));
+        key = max(key, here + uint(float(next - here) * (position - float(i))));
     }
     return key;
 }

@@ -18,13 +18,13 @@ void main()
     int corner = gl_VertexID % 6;
     bool atStart = corner == 0 || corner == 1 || corner == 3;
     bool left = corner == 0 || corner == 3 || corner == 5;
-    vec3 here = vertexPlace(molecule, int(spring.x)), there = vertexPlace(molecule, int(spring.y));
+    vec3 near = vertexPlace(molecule, int(spring.x)), far = vertexPlace(molecule, int(spring.y));
     float rest = spring.z * (SCALED ? moleculeScale(molecule) : 1.0);
-    float strain = clamp((distance(here, there) / max(rest, 1e-9) - 1.0) / strainShown, -1.0, 1.0);
+    float strain = clamp((distance(near, far) / max(rest, 1e-9) - 1.0) / strainShown, -1.0, 1.0);
     vec3 full = strain > 0.0 ? vec3(2.2, 0.18, 0.05) : vec3(0.08, 0.3, 2.4);
     color = mix(vec3(0.16, 0.18, 0.14), full, abs(strain));
     // a little nearer than the surface that it lies in
-    vec4 from = toClip * vec4(here * 0.998, 1.0), to = toClip * vec4(there * 0.998, 1.0);
+    vec4 from = toClip * vec4(near * 0.998, 1.0), to = toClip * vec4(far * 0.998, 1.0);
     vec2 along = (to.xy / to.w - from.xy / from.w) / halfWidth;
     vec2 across = vec2(-along.y, along.x) / max(length(along), 1e-6) * halfWidth;
     gl_Position = atStart ? from : to;

@@ -35,28 +35,28 @@ out vec4 fragment;
 
 // The normal that an image says, in the frame of its coordinates, which follows from how they change along the
 // surface [Schüler 2006].
-vec3 mapped(vec3 n, vec3 p, vec2 at)
+vec3 mapped(vec3 n, vec3 p, vec2 uv)
 {
     vec3 across = cross(dFdy(p), n);
     vec3 along = cross(n, dFdx(p));
-    vec2 dx = dFdx(at);
-    vec2 dy = dFdy(at);
+    vec2 dx = dFdx(uv);
+    vec2 dy = dFdy(uv);
     vec3 tangent = across * dx.x + along * dy.x;
     vec3 bitangent = across * dx.y + along * dy.y;
     float larger = max(dot(tangent, tangent), dot(bitangent, bitangent));
-    vec3 slope = texture(normalImage, at).xyz * 2.0 - 1.0;
+    vec3 slope = texture(normalImage, uv).xyz * 2.0 - 1.0;
     slope.xy *= normalScale * inversesqrt(max(larger, 1e-30));
     return normalize(tangent * slope.x + bitangent * slope.y + n * max(slope.z, 0.05));
 }
 
 // How dark the lines of the grid are at a place, of a pixel's width: stronger every ten metres; one pixel soft at every
 // distance.
-float gridLines(vec2 at)
+float gridLines(vec2 uv)
 {
-    vec2 width = max(fwidth(at), vec2(1e-5));
-    vec2 toLine = abs(fract(at - 0.5) - 0.5);
+    vec2 width = max(fwidth(uv), vec2(1e-5));
+    vec2 toLine = abs(fract(uv - 0.5) - 0.5);
     vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
-    vec2 toTenth = abs(fract(at / 10.0 - 0.5) - 0.5) * 10.0;
+    vec2 toTenth = abs(fract(uv / 10.0 - 0.5) - 0.5) * 10.0;
     vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
     return 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
 }
@@ -113,9 +113,9 @@ void main()
     if (REFRACTS) {
         // Opacity is the share of light that the glass itself scatters.
         vec4 glass = throughGlass(s, albedo);
-        vec3 both = covered * radiance + (1.0 - covered) * glass.a * glass.rgb;
+        vec3 sum = covered * radiance + (1.0 - covered) * glass.a * glass.rgb;
         covered += (1.0 - covered) * glass.a;
-        radiance = both / max(covered, 1e-3);
+        radiance = sum / max(covered, 1e-3);
     }
     radiance = withHaze(radiance, place);
     fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), covered);

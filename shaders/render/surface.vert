@@ -19,11 +19,11 @@ out vec3 color;
 
 void main()
 {
-    vec3 at = meshOrigin + meshTurn * (meshScale * corner);
+    vec3 vertex = meshOrigin + meshTurn * (meshScale * corner);
     uv = cornerUv;
-    place = at;
+    place = vertex;
     local = grainOffset + meshScale * corner;
     normal = meshTurn * cornerNormal;
     color = cornerColor;
-    gl_Position = toClip * vec4(at, 1.0);
+    gl_Position = toClip * vec4(vertex, 1.0);
 }

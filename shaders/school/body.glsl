@@ -13,10 +13,10 @@ uniform vec3 origin;  // m
 #include "generated/body.glsl"
 #include "physics/random.glsl"
 
-vec3 unit(vec3 v, vec3 otherwise)
+vec3 unit(vec3 v, vec3 fallback)
 {
     float size = length(v);
-    return size > 1e-12 ? v / size : otherwise;
+    return size > 1e-12 ? v / size : fallback;
 }
 
 void findBody(int molecule, out vec4 body[BODY_ELEMENTS])

@@ -37,14 +37,14 @@ Others lookAround(vec3 place, vec3 forward, int slot)
         ivec3 row = rowBeside(cell, r);
         ivec2 run = runOf(grids[0], row);
         for (int i = run.x; i < run.y; ++i) {
-            int at = grids[0].x + (i < grids[0].y ? i : i - grids[0].y);
-            vec3 other = placesAt(at).xyz;
+            int entry = grids[0].x + (i < grids[0].y ? i : i - grids[0].y);
+            vec3 other = placesAt(entry).xyz;
             vec3 d = other - place;
-            bool met = dot(d, d) < radius * radius && at != slot && cellOf(other, inverseCell).yz == row.yz &&
+            bool met = dot(d, d) < radius * radius && entry != slot && cellOf(other, inverseCell).yz == row.yz &&
                        isSeen(d, forward, blind);
             float share = met ? 1.0 : 0.0;
             sum.apart -= awayFrom(d, keep) * share;
-            sum.velocity += velocitiesAt(at) * share;
+            sum.velocity += velocitiesAt(entry) * share;
             sum.place += met ? d : vec3(0.0);
             sum.count += share;
         }
@@ -69,8 +69,8 @@ vec3 meetTargets(vec3 place)
             ivec2 run = runOf(grids[t], row);
             int stride = 1 + (run.y - run.x) / mostOfRun;
             for (int i = run.x; i < run.y; i += stride) {
-                int at = grids[t].x + (i < grids[t].y ? i : i - grids[t].y);
-                vec3 other = placesAt(at).xyz;
+                int entry = grids[t].x + (i < grids[t].y ? i : i - grids[t].y);
+                vec3 other = placesAt(entry).xyz;
                 vec3 d = other - place;
                 bool met = dot(d, d) < radius * radius && cellOf(other, gridRules[t].x).yz == row.yz;
                 float share = met ? float(stride) : 0.0;

@@ -25,11 +25,11 @@ uvec4 sortedTexel(uvec4 texel, int odd)
 void main()
 {
     ivec2 size = textureSize(pairs, 0);
-    ivec2 here = ivec2(gl_FragCoord.xy), there = here ^ mask;
-    int i = 2 * (here.y * size.x + here.x), j = 2 * (there.y * size.x + there.x);  // of the even pairs
+    ivec2 here = ivec2(gl_FragCoord.xy), partner = here ^ mask;
+    int i = 2 * (here.y * size.x + here.x), j = 2 * (partner.y * size.x + partner.x);  // of the even pairs
     bool lower = i < j;
     uvec4 own = texelFetch(pairs, here, 0);
-    uvec4 other = texelFetch(pairs, j < count ? there : here, 0);
+    uvec4 other = texelFetch(pairs, j < count ? partner : here, 0);
     if (sortedBefore) {
         own = sortedTexel(own, i + 1);
         other = sortedTexel(other, j + 1);

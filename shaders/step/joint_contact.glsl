@@ -49,17 +49,17 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     Way way = Way(position - drifted * drift.step, time - drift.step, ivec3(-1), false);
     if (areSwept) setWay(drifted, drift.step);
     if (areTabled) gatherNear(anchor, way.from, 3.0 * length(drifted) * drift.step + 1e-3);
-    Survey at;
+    Survey met;
     Touch before = noTouch();
     float beforeOff = 0.0;  // of the plane of `before`
     bool beforeRests = false;
     bool crease = false;
     int secondLast = -2;
     for (int n = 0; n < mostTouches; ++n) {
-        Touch t = nextTouch(anchor, c, way, time, n == 0, at);
+        Touch t = nextTouch(anchor, c, way, time, n == 0, met);
         if (areSwept && way.caught) {
-            t = at.deepest;
-            if (!alone) t.normal = wayOut(at, gravity);
+            t = met.deepest;
+            if (!alone) t.normal = wayOut(met, gravity);
         }
         if (t.distance >= 0.0) break;
         if (t.which == secondLast && t.distance > -retouching) {

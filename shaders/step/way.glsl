@@ -47,28 +47,28 @@ struct Way {
 //
 // One survey stands here for the way and for its end, because a rasteriser on a CPU runs this text at least once a frame.
 // `at`: the survey of the end.
-Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, out Survey at)
+Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, out Survey met)
 {
     Touch found = noTouch();
     float ago = -1.0;  // s
     // Within the ball that was searched, a vertex can touch only the listed colliders. A moving one may throw it out of
     // the ball.
     if (areTabled && max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
-    if (!areSwept) at = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
+    if (!areSwept) met = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
     vec3 path = c.position - way.from;
     float span = end - way.begin;
     float most = max(length(path) + fastestSurface() * span, 1e-20);
     float s = 0.0;  // share of the way; 1: its end
-    bool there = false;
+    bool stopped = false;
     for (int n = 0; areSwept && n <= mostMarches; ++n) {
         bool ends = s >= 1.0 || n == mostMarches;
         ends = ends || (areTabled && turns > mostTurns);
-        at = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
+        met = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
                     ivec3(way.skip.xy, found.which));
         if (ends) break;
-        way.caught = way.caught || (first && n == 0 && at.inmost < -caughtDepth);
+        way.caught = way.caught || (first && n == 0 && met.inmost < -caughtDepth);
         if (areTabled && way.caught) nearKnown = false;  // it may come out far away
-        Touch near = at.swept;
+        Touch near = met.swept;
         bool last = n == mostMarches - 1;
         float approach = dot(path - near.velocity * span, near.normal);
         float atEnd = near.distance + approach * (1.0 - s);
@@ -78,10 +78,10 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
             s += near.distance / most;
         } else if (atEnd >= 0.0) {
             way.skip = ivec3(near.which, way.skip.x, -1);  // along it, or away
-        } else if (near.distance > 0.0 && !there && !last) {
+        } else if (near.distance > 0.0 && !stopped && !last) {
             // on to the touch itself: at an edge the normal changes within micrometres
             s = min(s - near.distance / approach, 0.999999);
-            there = true;
+            stopped = true;
         } else {
             found = near;
             found.distance = atEnd;
@@ -91,7 +91,7 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
             s = 1.0;
         }
     }
-    if (areSwept) found.velocity = at.asked;  // where the substep ends, as of a solid one
-    if (at.entered > ago) found = at.solid;
+    if (areSwept) found.velocity = met.asked;  // where the substep ends, as of a solid one
+    if (met.entered > ago) found = met.solid;
     return found;
 }

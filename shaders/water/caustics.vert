@@ -8,8 +8,8 @@ out vec2 before;  // place on the surface, tiles
 
 void main()
 {
-    ivec2 at = ivec2(gl_VertexID % (CELLS + 1), gl_VertexID / (CELLS + 1));
-    before = mix(vec2(-MARGIN), vec2(1.0 + MARGIN), vec2(at) / float(CELLS));
+    ivec2 node = ivec2(gl_VertexID % (CELLS + 1), gl_VertexID / (CELLS + 1));
+    before = mix(vec2(-MARGIN), vec2(1.0 + MARGIN), vec2(node) / float(CELLS));
     vec2 after = before - waveSlope(before);
     gl_Position = vec4(after * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -31,12 +31,12 @@ vec3 sunlightAt(vec3 place)
 {
     float depth = depthOf(place);
     if (depth <= 0.0) return sunColor;
-    vec2 at = entryOf(place, depth);
+    vec2 uv = entryOf(place, depth);
     float relative = depth / causticsDepth;
     float blur = 0.6 * max(log2(max(relative, 1e-3)) - 1.3, 0.0);
-    float net = texture(caustics, at, blur).r;
+    float net = texture(caustics, uv, blur).r;
     // A second net, turned and larger, breaks the tiles' repetition up.
-    float wide = texture(caustics, mat2(0.35, 0.28, -0.28, 0.35) * at + vec2(0.37, 0.11), 1.0 + blur).r;
+    float wide = texture(caustics, mat2(0.35, 0.28, -0.28, 0.35) * uv + vec2(0.37, 0.11), 1.0 + blur).r;
     float strength = causticsAt.x * smoothstep(0.0, 0.6, relative) / (1.0 + 0.05 * relative);
     float light = 1.0 + strength * (net * (0.55 + 0.45 * wide) - 1.0);
     float way = depth / max(sunDirection.y, 0.2);

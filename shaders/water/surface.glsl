@@ -8,10 +8,10 @@ vec3 fromBelow(vec3 direction)
 {
     if (direction.y <= 0.01) return scatteredFrom(eyeDepth, direction, 1e4);
     float way = eyeDepth / direction.y;
-    vec2 at = causticsAt.zw + causticsAt.y * direction.xz * way;
+    vec2 point = causticsAt.zw + causticsAt.y * direction.xz * way;
     // Waves that are seen from far or at a low angle are finer than a pixel: the surface is flat there.
     float rough = 2.2 / (1.0 + 0.0025 * way * way);
-    vec2 slope = rough * (waveSlope(at) + 0.6 * waveSlope(mat2(2.1, 1.3, -1.3, 2.1) * at));
+    vec2 slope = rough * (waveSlope(point) + 0.6 * waveSlope(mat2(2.1, 1.3, -1.3, 2.1) * point));
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
 
     float cosine = clamp(dot(direction, normal), 0.0, 1.0);

@@ -144,7 +144,7 @@ static DrawMaker drawMaker(gpu::Context& context) {
         options.width = pictureWidth;
         options.height = pictureHeight;
         const auto renderer = std::make_shared<Renderer>(context, scene, plan, options);
-        return [renderer, view = View::of(scene.camera)](const StateView& state) {
+        return [renderer, view = View::fromCamera(scene.camera)](const StateView& state) {
             renderer->draw(state, view);
         };
     };

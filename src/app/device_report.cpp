@@ -60,7 +60,7 @@ Mismatch pictureOf(const NamedFile& scene, const StoredStates& stored, const Ima
     const PictureMaker draw = [&](const Scene& drawn, const Simulation& simulation) {
         Renderer renderer(*device.context, drawn, simulation.plan(),
                           {.width = blockColumns * blockSide, .height = blockRows * blockSide});
-        renderer.draw(simulation.state(), View::of(drawn.camera, simulation.time()));
+        renderer.draw(simulation.state(), View::fromCamera(drawn.camera, simulation.time()));
         return renderer.capture();
     };
     const Image blocks = recordPicture(checkedScene(scene.second), device, draw);
@@ -121,8 +121,9 @@ class DrawnScene {
     }
     void frame() {
         take(simulate_, ownSimulate_, [&] { simulation_.frame(); });
-        take(draw_, ownDraw_,
-             [&] { renderer_->draw(simulation_.state(), View::of(scene_.camera, simulation_.time())); });
+        take(draw_, ownDraw_, [&] {
+            renderer_->draw(simulation_.state(), View::fromCamera(scene_.camera, simulation_.time()));
+        });
     }
 
     const BenchDevice& device_;

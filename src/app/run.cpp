@@ -151,7 +151,8 @@ class HeadlessRun {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
-            if (draws) renderer_->draw(simulation_.state(), View::of(scene_.camera, simulation_.time()));
+            if (draws)
+                renderer_->draw(simulation_.state(), View::fromCamera(scene_.camera, simulation_.time()));
             addTo(report_.frames, context_.traffic() - before);
             outside([&] {
                 if (draws) {
@@ -245,7 +246,7 @@ class HeadlessRun {
 
     void writePicture(int frame) {
         if (!layered_) return pictures_->write(renderer_->capture(), frame);
-        const View view = View::of(scene_.camera, simulation_.time());
+        const View view = View::fromCamera(scene_.camera, simulation_.time());
         writeLayers(pictures_->place(frame), renderer_->layers(simulation_.state(), view));
     }
 

@@ -11,17 +11,17 @@ namespace shoal::gpu {
 
 namespace {
 
-std::vector<std::string> split(std::string_view text, char by) {
+std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> out(1);
     for (const char c : text) {
-        if (c == by)
+        if (c == separator)
             out.emplace_back();
-        else if (by == ' ' || c != ' ' || !out.back().empty())
+        else if (separator == ' ' || c != ' ' || !out.back().empty())
             out.back() += c;
     }
     for (std::string& part : out)
         part.resize(part.find_last_not_of(' ') + 1);
-    if (by == ' ') std::erase(out, "");
+    if (separator == ' ') std::erase(out, "");
     return out;
 }
 
@@ -104,13 +104,13 @@ void ArrayTable::readRow(const std::vector<std::string>& cells, const Location& 
     row.isRecord = value == "record";
     need(row.isRecord || texel != std::end(texels), "a value: float4, uint4, uint2, uint1 or record");
     row.texel = row.isRecord ? Texel::uint1 : Texel(texel - std::begin(texels));
-    std::string_view of = cells[3];
-    row.count = takeNumber(of, 1);
-    if (takeWord(of, "*") && takeWord(of, "list*")) row.ofList = true;
-    row.ofList = row.ofList || takeWord(of, "list*");
-    row.index = of.substr(0, of.find('+'));
-    of.remove_prefix(row.index.size());
-    if (takeWord(of, "+")) row.more = size_t(takeNumber(of, 0));
+    std::string_view subject = cells[3];
+    row.count = takeNumber(subject, 1);
+    if (takeWord(subject, "*") && takeWord(subject, "list*")) row.ofList = true;
+    row.ofList = row.ofList || takeWord(subject, "list*");
+    row.index = subject.substr(0, subject.find('+'));
+    subject.remove_prefix(row.index.size());
+    if (takeWord(subject, "+")) row.more = size_t(takeNumber(subject, 0));
     need(cells[4] == "plan" || cells[4] == "stage" || cells[4] == "step" || cells[4] == "steps",
          "a life: plan, stage, step or steps");
     constexpr std::string_view starts[] = {"-", "0", "far"};

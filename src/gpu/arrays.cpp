@@ -54,8 +54,8 @@ Arrays::Arrays(Context& context, const ArrayTable& table, const ArraySizes& size
         if (row.index.empty()) {
             ++elements;
         } else {
-            EXPECTS(sizes.of.contains(row.index) && "how many there are is known");
-            elements += sizes.of.at(row.index);
+            EXPECTS(sizes.counts.contains(row.index) && "how many there are is known");
+            elements += sizes.counts.at(row.index);
         }
         if (table.form() == ArrayTable::Form::textures)
             makeTexture(entry, elements, nullptr);
@@ -103,7 +103,7 @@ void Arrays::makeTexture(Entry& entry, size_t elements, const void* data) {
 }
 
 void Arrays::give(const std::string& name, const void* data, size_t values) {
-    Entry& entry = at(name);
+    Entry& entry = entryOf(name);
     if (table_->form() == ArrayTable::Form::textures)
         makeTexture(entry, values, data);
     else
@@ -111,7 +111,7 @@ void Arrays::give(const std::string& name, const void* data, size_t values) {
 }
 
 void Arrays::write(const std::string& name, Traffic::Kind kind, const void* data, size_t values) {
-    const Entry& entry = at(name);
+    const Entry& entry = entryOf(name);
     const size_t each = bytesOf(entry.row->texel);
     EXPECTS(entry.row->count == 1 && !entry.row->ofList && entry.row->packed == 1);
     if (table_->form() == ArrayTable::Form::buffers) return buffer(name).update(kind, 0, data, values * each);
@@ -132,7 +132,7 @@ static void forLayers(const ArrayRow& row, size_t element, int rowBits, const Vi
 }
 
 void Arrays::writeElement(const std::string& name, Traffic::Kind kind, size_t element, const void* data) {
-    const ArrayRow& row = *at(name).row;
+    const ArrayRow& row = *entryOf(name).row;
     const size_t bytes = bytesOf(row.texel) * size_t(row.count);
     if (table_->form() == ArrayTable::Form::buffers)
         return buffer(name).update(kind, element * bytes, data, bytes);
@@ -143,7 +143,7 @@ void Arrays::writeElement(const std::string& name, Traffic::Kind kind, size_t el
 }
 
 void Arrays::readElement(const std::string& name, Traffic::Kind kind, size_t element, void* data) const {
-    const ArrayRow& row = *at(name).row;
+    const ArrayRow& row = *entryOf(name).row;
     const size_t bytes = bytesOf(row.texel) * size_t(row.count);
     if (table_->form() == ArrayTable::Form::buffers)
         return buffer(name).download(kind, element * bytes, data, bytes);
@@ -159,19 +159,19 @@ const Arrays::Entry* Arrays::find(std::string_view name) const {
     return found == arrays_.end() ? nullptr : &found->second;
 }
 
-const Arrays::Entry& Arrays::at(const std::string& name) const {
+const Arrays::Entry& Arrays::entryOf(const std::string& name) const {
     const Entry* found = find(name);
     EXPECTS(found && "the table has an array of that name");
     return *found;
 }
 
 bool Arrays::has(const std::string& name) const {
-    const Entry& entry = at(name);
+    const Entry& entry = entryOf(name);
     return entry.array.buffer || entry.texture || entry.lent;
 }
 
 void Arrays::swap(const std::string& a, const std::string& b) {
-    Entry &first = at(a), &second = at(b);
+    Entry &first = entryOf(a), &second = entryOf(b);
     std::swap(first.array, second.array);
     std::swap(first.texture, second.texture);
 }
@@ -209,7 +209,7 @@ ProgramOptions Arrays::passOptions(const std::string& file, const std::string& l
     return out;
 }
 
-const Program& Arrays::with(const Program& program) const {
+const Program& Arrays::use(const Program& program) const {
     program.use();
     const Uses& uses = usesOf(program);
     for (const auto& [name, entry, isRead] : uses.samplers) {
@@ -230,7 +230,7 @@ int Arrays::entriesADraw(const Program& program) const {
 }
 
 bool Arrays::isList(const std::string& name) const {
-    const ArrayRow& row = *at(name).row;
+    const ArrayRow& row = *entryOf(name).row;
     return row.ofList && row.packed == 1;
 }
 
@@ -238,7 +238,7 @@ std::vector<ColorTarget> Arrays::targets(const Program& program, int firstEntry)
     std::vector<ColorTarget> out;
     const int entries = entriesADraw(program);
     for (const std::string& name : program.written()) {
-        const Texture& texture = at(name).texture;
+        const Texture& texture = entryOf(name).texture;
         EXPECTS(texture && "what the pass draws into was made");
         if (!isList(name)) out.emplace_back(&texture);
         for (int e = 0; isList(name) && e < entries; ++e)

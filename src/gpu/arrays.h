@@ -25,7 +25,7 @@ struct Array {
 
 // How many elements there are of what.
 struct ArraySizes {
-    std::map<std::string, size_t, std::less<>> of;
+    std::map<std::string, size_t, std::less<>> counts;
     size_t list = 0;  // entries of a list
     int rowBits = 0;  // textures have rows of 2^rowBits texels
 };
@@ -46,7 +46,7 @@ class Arrays {
     void writeElement(const std::string& name, Traffic::Kind kind, size_t element, const void* data);
     void readElement(const std::string& name, Traffic::Kind kind, size_t element, void* data) const;
     // Another owner's, for as long as this is used.
-    void lend(const std::string& name, const Texture& texture) { at(name).lent = &texture; }
+    void lend(const std::string& name, const Texture& texture) { entryOf(name).lent = &texture; }
     // `name` is also known as `other`.
     void alias(const std::string& other, const std::string& name) { aliases_[other] = name; }
     // Contents change places: what one was the other is.
@@ -55,17 +55,17 @@ class Arrays {
     void rotate(const std::vector<std::string>& names);
 
     bool has(const std::string& name) const;
-    Buffer& buffer(const std::string& name) { return at(name).array.buffer; }
-    const Buffer& buffer(const std::string& name) const { return at(name).array.buffer; }
-    const BufferTexture& view(const std::string& name) const { return at(name).array.texture; }
-    Texture& texture(const std::string& name) { return at(name).texture; }
-    const Texture& texture(const std::string& name) const { return at(name).texture; }
+    Buffer& buffer(const std::string& name) { return entryOf(name).array.buffer; }
+    const Buffer& buffer(const std::string& name) const { return entryOf(name).array.buffer; }
+    const BufferTexture& view(const std::string& name) const { return entryOf(name).array.texture; }
+    Texture& texture(const std::string& name) { return entryOf(name).texture; }
+    const Texture& texture(const std::string& name) const { return entryOf(name).texture; }
 
     // The options of a pass over them, "<file>.pass.glsl" below Context::shaders().
     ProgramOptions passOptions(const std::string& file, const std::string& label) const;
     // Uses a program and gives it all arrays that it declares. What it declares beside them is for the caller
     // to give.
-    const Program& with(const Program& program) const;
+    const Program& use(const Program& program) const;
     // Runs a program in use over elements of shaders/state/lanes.glsl: a dispatch, after a barrier where it
     // reads what others wrote or writes what they read; in fragments a draw of the rows that have them, into
     // what it writes, and of lists into their entries from `firstEntry` on.
@@ -98,8 +98,8 @@ class Arrays {
     };
     const Uses& usesOf(const Program& program) const;
     // A contract: it is in the table.
-    const Entry& at(const std::string& name) const;
-    Entry& at(const std::string& name) { return const_cast<Entry&>(std::as_const(*this).at(name)); }
+    const Entry& entryOf(const std::string& name) const;
+    Entry& entryOf(const std::string& name) { return const_cast<Entry&>(std::as_const(*this).entryOf(name)); }
     const Entry* find(std::string_view name) const;
     bool isList(const std::string& name) const;
     std::vector<ColorTarget> targets(const Program& program, int firstEntry) const;

@@ -139,8 +139,8 @@ void VertexArray::attribute(int location, const Buffer& buffer, int components, 
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     glEnableVertexAttribArray(index);
     // OpenGL takes an offset as a pointer, for reasons of history.
-    const auto* at = reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
-    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, at);
+    const auto* start = reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
+    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, start);
     glVertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 

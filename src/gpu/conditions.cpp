@@ -37,7 +37,7 @@ void need(bool understood, const Location& where) {
 }  // namespace
 
 bool Conditions::taken() const {
-    return std::all_of(open_.begin(), open_.end(), [](const Branch& branch) { return branch.now; });
+    return std::all_of(open_.begin(), open_.end(), [](const Branch& branch) { return branch.taken; });
 }
 
 bool Conditions::stays(std::string_view line, const Location& where) {
@@ -66,8 +66,8 @@ bool Conditions::directive(const std::string& word, const std::vector<std::strin
     } else if (word == "elif" || word == "else") {
         need(!open_.empty(), where);
         Branch& branch = open_.back();
-        branch.now = !branch.done && (word == "else" || holds(words, where));
-        branch.done = branch.done || branch.now;
+        branch.taken = !branch.done && (word == "else" || holds(words, where));
+        branch.done = branch.done || branch.taken;
     } else if (word == "endif") {
         need(!open_.empty(), where);
         open_.pop_back();
@@ -97,26 +97,26 @@ bool Conditions::isDefined(const std::string& name, const Location& where) const
 bool Conditions::holds(const std::vector<std::string>& words, const Location& where) const {
     bool any = false, all = true;
     size_t i = 0;
-    const auto is = [&](size_t ahead, const char* word) {
+    const auto isWord = [&](size_t ahead, const char* word) {
         return i + ahead < words.size() && words[i + ahead] == word;
     };
     for (;;) {
         bool wanted = true;
-        for (; is(0, "!"); ++i)
+        for (; isWord(0, "!"); ++i)
             wanted = !wanted;
         bool term = false;
-        if (is(0, "defined") && is(1, "(") && is(3, ")")) {
+        if (isWord(0, "defined") && isWord(1, "(") && isWord(3, ")")) {
             term = isDefined(words[i + 2], where);
             i += 4;
         } else {
-            need(is(1, ">") && i + 2 < words.size() && defined_.count(words[i]) == 1, where);
+            need(isWord(1, ">") && i + 2 < words.size() && defined_.count(words[i]) == 1, where);
             term = std::atoi(defined_.at(words[i]).c_str()) > std::atoi(words[i + 2].c_str());
             i += 3;
         }
         all = all && term == wanted;
         if (i == words.size()) return any || all;
-        need(is(0, "&&") || is(0, "||"), where);
-        if (is(0, "||")) {
+        need(isWord(0, "&&") || isWord(0, "||"), where);
+        if (isWord(0, "||")) {
             any = any || all;
             all = true;
         }

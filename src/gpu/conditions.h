@@ -30,7 +30,7 @@ class Conditions {
 
   private:
     struct Branch {
-        bool now, done;  // taken; some branch of this #if was
+        bool taken, done;  // done: some branch of this #if was taken
         Location where;
     };
 

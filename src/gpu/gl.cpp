@@ -13,8 +13,8 @@ static GLsizei lengthOf(std::string_view text) {
     size_t length = text.size();
     if (length > most) {
         length = most;
-        const auto continues = [&](size_t at) {
-            return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80;
+        const auto continues = [&](size_t place) {
+            return (static_cast<unsigned char>(text[place]) & 0xC0) == 0x80;
         };
         while (length > 0 && continues(length))  // not within a character of UTF-8
             --length;

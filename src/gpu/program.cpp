@@ -127,9 +127,9 @@ GLuint lastUsed = 0;
 // What lies at each unit and binding, as far as programs have put it there.
 std::vector<GLuint> textureAt, bufferAt;
 
-void put(std::vector<GLuint>& at, size_t place, GLuint what) {
-    if (at.size() <= place) at.resize(place + 1);
-    at[place] = what;
+void put(std::vector<GLuint>& names, size_t place, GLuint what) {
+    if (names.size() <= place) names.resize(place + 1);
+    names[place] = what;
 }
 
 std::mutex firstGuard;
@@ -231,9 +231,9 @@ void beginPass() {
     FrameRecord::add(slots.label, slots.samplers, slots.blocks, slots.written, slots.updated);
 #ifndef SHOAL_NO_CONTRACTS
     const auto check = [](const std::vector<std::string>& names, const std::vector<GLuint>& given,
-                          const std::vector<GLuint>& at) {
+                          const std::vector<GLuint>& bound) {
         for (size_t i = 0; i < names.size(); ++i)
-            if (given[i] == 0 || given[i] != at[i])
+            if (given[i] == 0 || given[i] != bound[i])
                 contractBroken(__FILE__, __LINE__,
                                concat("the program in use was not given \"", names[i], "\"").c_str());
     };
@@ -326,13 +326,13 @@ void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
-const Program& Programs::get(Context& context, const ProgramOptions& options, const std::string& with) {
+const Program& Programs::get(Context& context, const ProgramOptions& options, const std::string& fixed) {
     std::string key;
     const auto add = [&key](const std::string& part) {
         key += std::to_string(part.size()) + ":";  // so that parts cannot run into each other
         key += part;
     };
-    for (const std::string* part : {&options.vertex, &options.fragment, &options.compute, &with})
+    for (const std::string* part : {&options.vertex, &options.fragment, &options.compute, &fixed})
         add(*part);
     for (const std::string& define : options.defines)
         add(define);

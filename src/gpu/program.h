@@ -118,9 +118,9 @@ void endFirstUse();
 // label of the first. So many equal groups compile once.
 class Programs {
   public:
-    // `with`: what else must be equal, for uniforms that are set only once. What `rewrite` does must follow
+    // `fixed`: what else must be equal, for uniforms that are set only once. What `rewrite` does must follow
     // from the other options. The program stays where it is as long as this does. Error: Program's.
-    const Program& get(Context& context, const ProgramOptions& options, const std::string& with = {});
+    const Program& get(Context& context, const ProgramOptions& options, const std::string& fixed = {});
 
   private:
     std::map<std::string, Program> made_;

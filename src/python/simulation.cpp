@@ -249,7 +249,7 @@ py::array PySimulation::picture(int width, int height, const std::optional<std::
         if (!renderer_)
             renderer_ = std::make_unique<Renderer>(device_->context, scene_, simulation.plan(), options);
         renderer_->resize(width, height);
-        View view = View::of(scene_.camera, simulation.time());
+        View view = View::fromCamera(scene_.camera, simulation.time());
         if (eye) view.eye = finite("eye", *eye);
         if (target) view.target = finite("target", *target);
         if (fieldOfView) view.fieldOfView = *fieldOfView;

@@ -214,12 +214,12 @@ void SlabDraws::bind(const gpu::Program& program) const {
 }
 
 void SlabDraws::draw(int slab) const {
-    const auto* at =
+    const auto* offset =
         reinterpret_cast<const void*>(size_t(slab) * drawBytes);  // OpenGL's way to say an offset
     if (streams_[0].indexed)
-        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, at);
+        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, offset);
     else
-        glDrawArraysIndirect(GL_POINTS, at);
+        glDrawArraysIndirect(GL_POINTS, offset);
 }
 
 // ---- Levels of detail

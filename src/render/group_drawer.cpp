@@ -80,9 +80,9 @@ void GroupDrawer::submit(const gpu::Program& program, const StateView& state, si
         bind(program, state, part, count);
         const int instances = (count + stream.batch - 1) / stream.batch;
         // OpenGL's way to say an offset
-        const auto* at = reinterpret_cast<const void*>(size_t(stream.first) * sizeof(uint32_t));
+        const auto* offset = reinterpret_cast<const void*>(size_t(stream.first) * sizeof(uint32_t));
         if (stream.indexed)
-            glDrawElementsInstanced(GL_TRIANGLES, stream.corners, GL_UNSIGNED_INT, at, instances);
+            glDrawElementsInstanced(GL_TRIANGLES, stream.corners, GL_UNSIGNED_INT, offset, instances);
         else
             glDrawArraysInstanced(GL_POINTS, 0, stream.corners, instances);
         glDisable(GL_PROGRAM_POINT_SIZE);

@@ -166,9 +166,9 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
     for (Look& look : drawn.looks) {
         glm::vec3 low(INFINITY), high(-INFINITY);
         for (int i = 0; i < look.indexCount; ++i) {
-            const glm::vec3& at = mesh.corners[mesh.indices[size_t(look.firstIndex + i)]].position;
-            low = glm::min(low, at);
-            high = glm::max(high, at);
+            const glm::vec3& corner = mesh.corners[mesh.indices[size_t(look.firstIndex + i)]].position;
+            low = glm::min(low, corner);
+            high = glm::max(high, corner);
         }
         look.middle = 0.5f * (low + high);
         blends_ = blends_ || blended(look.material);
@@ -328,12 +328,12 @@ void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
-    for (const Far& one : order) {
-        if (refracting(one.look->material)) applyGlass(*one.look, eye, behind);
+    for (const Far& far : order) {
+        if (refracting(far.look->material)) applyGlass(*far.look, eye, behind);
         // A closed surface has all that faces away from the eye behind what faces it.
         for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
             glCullFace(hidden);
-            drawLook(*one.surface, *one.look, eye, lighting, time);
+            drawLook(*far.surface, *far.look, eye, lighting, time);
         }
     }
     glDisable(GL_CULL_FACE);

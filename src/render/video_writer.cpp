@@ -122,9 +122,9 @@ class BrokenPipeHeld {
         pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
     }
     ~BrokenPipeHeld() {
-        const timespec now{0, 0};
+        const timespec atOnce{0, 0};
         if (!wasPending_) {
-            while (sigtimedwait(&pipe_, nullptr, &now) < 0 && errno == EINTR) {
+            while (sigtimedwait(&pipe_, nullptr, &atOnce) < 0 && errno == EINTR) {
             }
         }
         pthread_sigmask(SIG_SETMASK, &before_, nullptr);
@@ -172,9 +172,9 @@ int VideoWriter::waitWhileItWrites(ChildProcess& program, int written) {
     off_t before = -1;
     for (;;) {
         if (const std::optional<int> status = program.wait(patience_)) return exitCode(*status);
-        struct stat now {};
-        if (::fstat(written, &now) != 0 || now.st_size == before) failWaiting("written nothing");
-        before = now.st_size;
+        struct stat file {};
+        if (::fstat(written, &file) != 0 || file.st_size == before) failWaiting("written nothing");
+        before = file.st_size;
     }
 }
 

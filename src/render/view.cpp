@@ -6,7 +6,7 @@
 
 namespace shoal {
 
-View View::of(const Camera& camera, double time) {
+View View::fromCamera(const Camera& camera, double time) {
     View view;
     view.time = time;
     view.eye = camera.eye;

@@ -15,7 +15,7 @@ struct View {
     double exposure = 1;
     double time = 0;  // s: where the colliders are that move
 
-    static View of(const Camera& camera, double time = 0);
+    static View fromCamera(const Camera& camera, double time = 0);
 };
 
 // Columns: right, up, towards the eye.

@@ -185,7 +185,7 @@ void BirthPasses::setTree(const Program& program, const Living& living) const {
 
 // Both arrays of sums are written in turn.
 void BirthPasses::sum(const Living& living, bool ofDeaths, int firstPlace, int count) {
-    arrays_.with(*living.bits);
+    arrays_.use(*living.bits);
     bindPlaces(*living.bits, living);
     living.bits->set("ofDeaths", int(ofDeaths));
     living.bits->set("placeCount", living.count());
@@ -195,13 +195,13 @@ void BirthPasses::sum(const Living& living, bool ofDeaths, int firstPlace, int c
     for (size_t level = 1; level < living.tree.size(); ++level) {
         const glm::ivec4 below = living.tree[level - 1];
         arrays_.swap("sums", "sumsBelow");
-        arrays_.with(sums_).set("below", glm::ivec4(below.x, below.y, int(level == 1), 0));
+        arrays_.use(sums_).set("below", glm::ivec4(below.x, below.y, int(level == 1), 0));
         arrays_.run(sums_, living.tree[level].x, living.tree[level].y);
     }
 }
 
 void BirthPasses::renew(const Living& living, Renewal renewal, int summed, int scheduled) {
-    arrays_.with(control_);
+    arrays_.use(control_);
     setTree(control_, living);
     control_.set("group", int(living.group));
     control_.set("renewal", int(renewal));
@@ -220,7 +220,7 @@ void BirthPasses::renew(const Living& living, Renewal renewal, int summed, int s
 void BirthPasses::listDeaths(const Living& living) {
     sum(living, true, 0, living.count());
     renew(living, Renewal::deaths, living.count());
-    arrays_.with(list_).set("group", int(living.group));
+    arrays_.use(list_).set("group", int(living.group));
     setTree(list_, living);
     constexpr int most = 4095 * stateWidth;  // lanes that any device takes in one dispatch, and whole rows
     for (int first = 0; first < living.count(); first += most) {
@@ -268,7 +268,7 @@ void BirthPasses::bear(Living& living, const Frame& frame) {
     if (!newborns.places.empty())
         arrays_.write("places", Traffic::Kind::births, newborns.places.data(), newborns.places.size());
     arrays_.settle();
-    arrays_.with(*living.spawn);
+    arrays_.use(*living.spawn);
     setTree(*living.spawn, living);
     setNumbers(living, newborns, frame);
     tables_->bind(*living.spawn, *plan_);
@@ -419,14 +419,14 @@ LifeCounts BirthPasses::counts(size_t group) {
 
 bool BirthPasses::change(size_t group, const Lifecycle& life) {
     Living& living = *groups_[group];
-    const Lifecycle& now = living.life;
-    bool same = life.emitters.size() == now.emitters.size() && life.capacity == now.capacity &&
-                life.allocator == now.allocator && life.turn == now.turn &&
-                life.within.has_value() == now.within.has_value() &&
-                life.afterContact.has_value() == now.afterContact.has_value() &&
-                ((life.scale == glm::dvec2(1)) == (now.scale == glm::dvec2(1)));
+    const Lifecycle& present = living.life;
+    bool same = life.emitters.size() == present.emitters.size() && life.capacity == present.capacity &&
+                life.allocator == present.allocator && life.turn == present.turn &&
+                life.within.has_value() == present.within.has_value() &&
+                life.afterContact.has_value() == present.afterContact.has_value() &&
+                ((life.scale == glm::dvec2(1)) == (present.scale == glm::dvec2(1)));
     for (size_t e = 0; same && e < life.emitters.size(); ++e)
-        same = sameText(life.emitters[e], now.emitters[e]);
+        same = sameText(life.emitters[e], present.emitters[e]);
     if (!same) return false;
     for (size_t e = 0; e < life.emitters.size(); ++e)
         if (life.emitters[e].from != Emitter::From::surface)

@@ -10,8 +10,8 @@ namespace shoal {
 namespace {
 
 template <typename T>
-void overwrite(std::vector<T>& values, const std::vector<T>& with) {
-    std::copy_n(with.begin(), std::min(values.size(), with.size()), values.begin());
+void overwrite(std::vector<T>& values, const std::vector<T>& others) {
+    std::copy_n(others.begin(), std::min(values.size(), others.size()), values.begin());
 }
 
 // Carries over an allocator on the CPU, which has `ends`: those of the old one, else the end of each life.

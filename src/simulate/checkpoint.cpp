@@ -214,21 +214,21 @@ void checkContacts(const ContactMemory& memory, const Location& location) {
 
 // Returns where a slider had been moved to, unless the scene says otherwise now than it did then.
 template <typename T>
-T follow(const T& stood, const T& was, const T& is) {
-    return stood != was && was == is ? stood : is;
+T follow(const T& stood, const T& was, const T& ours) {
+    return stood != was && was == ours ? stood : ours;
 }
 
 Parameters parametersNow(const Head& head, const Plan& plan) {
-    const Parameters &stood = head.parameters, &was = head.own, is = parametersOf(plan);
+    const Parameters &stood = head.parameters, &was = head.own, ours = parametersOf(plan);
     Parameters out;
-    out.gravity = follow(stood.gravity, was.gravity, is.gravity);
-    out.wind = follow(stood.wind, was.wind, is.wind);
-    out.drag = follow(stood.drag, was.drag, is.drag);
-    out.stiffness = follow(stood.stiffness, was.stiffness, is.stiffness);
-    out.damping = follow(stood.damping, was.damping, is.damping);
-    out.forces = is.forces;
-    out.frameTime = follow(stood.frameTime, was.frameTime, is.frameTime);
-    out.substeps = follow(stood.substeps, was.substeps, is.substeps);
+    out.gravity = follow(stood.gravity, was.gravity, ours.gravity);
+    out.wind = follow(stood.wind, was.wind, ours.wind);
+    out.drag = follow(stood.drag, was.drag, ours.drag);
+    out.stiffness = follow(stood.stiffness, was.stiffness, ours.stiffness);
+    out.damping = follow(stood.damping, was.damping, ours.damping);
+    out.forces = ours.forces;
+    out.frameTime = follow(stood.frameTime, was.frameTime, ours.frameTime);
+    out.substeps = follow(stood.substeps, was.substeps, ours.substeps);
     // as the sliders do: the step stays stable
     if (out.stiffness != 1 || out.damping != 1)
         out.substeps =
@@ -237,9 +237,9 @@ Parameters parametersNow(const Head& head, const Plan& plan) {
 }
 
 // Whether a slider is no longer where it stood.
-bool changed(const Head& head, Parameters now) {
-    now.forces = head.parameters.forces;  // not in the file
-    return jumps(head.parameters, now);
+bool changed(const Head& head, Parameters present) {
+    present.forces = head.parameters.forces;  // not in the file
+    return jumps(head.parameters, present);
 }
 
 }  // namespace

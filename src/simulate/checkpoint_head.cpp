@@ -76,21 +76,21 @@ std::string difference(const std::vector<GroupHead>& saved, const std::vector<Gr
         return concat("it had ", saved.size(), saved.size() == 1 ? " group" : " groups", ", this one has ",
                       here.size());
     for (size_t g = 0; g < saved.size(); ++g) {
-        const GroupHead &was = saved[g], &is = here[g];
-        if (was.name != is.name)
-            return concat("its group ", g + 1, " was \"", was.name, "\", here it is \"", is.name, "\"");
+        const GroupHead &was = saved[g], &ours = here[g];
+        if (was.name != ours.name)
+            return concat("its group ", g + 1, " was \"", was.name, "\", here it is \"", ours.name, "\"");
         const std::string group = concat("its group \"", was.name, "\" had ");
-        if (was.count != is.count) return concat(group, was.count, " molecules, here it has ", is.count);
-        if (was.vertexCount != is.vertexCount)
+        if (was.count != ours.count) return concat(group, was.count, " molecules, here it has ", ours.count);
+        if (was.vertexCount != ours.vertexCount)
             return concat(group, "molecules of ", was.vertexCount, " vertices, here they have ",
-                          is.vertexCount);
-        if (was.springCount != is.springCount)
+                          ours.vertexCount);
+        if (was.springCount != ours.springCount)
             return concat(group, "molecules of ", was.springCount, " springs, here they have ",
-                          is.springCount);
-        if (was.shape != is.shape)
+                          ours.springCount);
+        if (was.shape != ours.shape)
             return concat(group,
                           "springs between other vertices or of other rest lengths, or was born otherwise");
-        if (was.instances != is.instances)
+        if (was.instances != ours.instances)
             return concat(group, "other seeds, sizes or muscle phases: another --seed or other ranges");
     }
     return {};

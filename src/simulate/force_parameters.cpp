@@ -23,8 +23,8 @@ class Writer {
     std::vector<glm::vec4> write() {
         EXPECTS(frame_.parameters.forces.size() == plan_.forces.size());
         for (const auto* kind : {&group_.forces.pulls, &group_.forces.thrusts, &group_.forces.winds})
-            for (const GroupForces::Entry& one : *kind)
-                write(one);
+            for (const GroupForces::Entry& entry : *kind)
+                write(entry);
         if (!group_.forces.winds.empty()) put(group_.forces.windSlot, wind_);
         return std::move(out_);
     }
@@ -42,26 +42,26 @@ class Writer {
         return control.position.value_or(own + momentOf(plan_.forces[force].path, middle_).offset);
     }
 
-    void write(const GroupForces::Entry& one) {
-        std::visit([&](const auto& kind) { write(one, kind.times(factorOf(one.force))); },
-                   *plan_.forces[one.force].shape);
+    void write(const GroupForces::Entry& entry) {
+        std::visit([&](const auto& kind) { write(entry, kind.times(factorOf(entry.force))); },
+                   *plan_.forces[entry.force].shape);
     }
 
     // The slots as the text of the call names them (compile/generate_forces.cpp).
     template <typename Pull>
-    void write(const GroupForces::Entry& one, Pull pull) {
-        pull.position = placeOf(one.force, pull.position);
-        const std::vector<glm::vec4> own = parametersOf(pull.call(), isFar(plan_.forces[one.force]));
-        std::copy(own.begin(), own.end(), out_.begin() + ptrdiff_t(one.slot));
+    void write(const GroupForces::Entry& entry, Pull pull) {
+        pull.position = placeOf(entry.force, pull.position);
+        const std::vector<glm::vec4> own = parametersOf(pull.call(), isFar(plan_.forces[entry.force]));
+        std::copy(own.begin(), own.end(), out_.begin() + ptrdiff_t(entry.slot));
     }
 
     // All winds share one slot.
     void write(const GroupForces::Entry&, const WindForce& wind) { wind_ += wind.velocity; }
 
-    void write(const GroupForces::Entry& one, const ThrustForce& thrust) {
+    void write(const GroupForces::Entry& entry, const ThrustForce& thrust) {
         constexpr double most = 40;  // e^40 takes what is too slow for a float's square to no speed at all
         const double rate = std::clamp(thrust.rate, -1e3 / frame_.h, most / frame_.h);
-        put(one.slot, {std::exp(rate * frame_.h), std::exp(rate * frame_.h / 2), thrust.limit}, rate);
+        put(entry.slot, {std::exp(rate * frame_.h), std::exp(rate * frame_.h / 2), thrust.limit}, rate);
     }
 
     const Plan& plan_;

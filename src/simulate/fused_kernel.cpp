@@ -117,8 +117,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
             out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
     }
     define(needs.records, "RECORDS");
-    for (const std::string& one : constants(plan, group, options))
-        out.push_back(one);
+    for (const std::string& constant : constants(plan, group, options))
+        out.push_back(constant);
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
     if (solver(group.solver).rungeKutta())
@@ -131,8 +131,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     if (needs.collide && contact && !births)
-        for (const std::string& one : contact->defines())
-            out.push_back(one);
+        for (const std::string& wanted : contact->defines())
+            out.push_back(wanted);
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (births && options.targets)
         out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", std::countr_zero(unsigned(stateWidth)))});

@@ -56,22 +56,22 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
         constants_ = make(Values::constants, "constants");
         writeConstants(group);
     }
-    for (size_t now = 0; now < 2 && group.needs.steers; ++now)
-        steering_[now] = make(Values::steering, "steering");
-    for (size_t now = 0; now < 2 && group.needs.steers; ++now) {
-        newSteering_[now] = Framebuffer(context, {{&steering_[1 - now]}}, nullptr, "steering");
+    for (size_t side = 0; side < 2 && group.needs.steers; ++side)
+        steering_[side] = make(Values::steering, "steering");
+    for (size_t side = 0; side < 2 && group.needs.steers; ++side) {
+        newSteering_[side] = Framebuffer(context, {{&steering_[1 - side]}}, nullptr, "steering");
     }
-    for (size_t now = 0; now < 2; ++now) {
+    for (size_t side = 0; side < 2; ++side) {
         std::vector<gpu::ColorTarget> all;
-        addLayers(state_[1 - now], all);
-        if (records_[1]) addLayers(records_[1 - now], all);
-        newState_[now] = drawsInto(context, all, targets, "new state");
+        addLayers(state_[1 - side], all);
+        if (records_[1]) addLayers(records_[1 - side], all);
+        newState_[side] = drawsInto(context, all, targets, "new state");
         if (!group.needs.life) continue;
         all.clear();
-        addLayers(state_[now], all);
-        addLayers(records_[now], all);
+        addLayers(state_[side], all);
+        addLayers(records_[side], all);
         if (constants_) addLayers(constants_, all);
-        newborns_[now] = drawsInto(context, all, targets, "newborns");
+        newborns_[side] = drawsInto(context, all, targets, "newborns");
     }
     if (!normals || !group.needs.normals) return;
     normals_ = make(Values::normals, "normals");
@@ -99,16 +99,16 @@ void GroupLayers::draw(const gpu::Program& program, Output output, int molecules
 
 template <typename Self>
 auto& GroupLayers::textureOf(Self& self, Values values) {
-    const size_t now = size_t(self.current_);
+    const size_t side = size_t(self.current_);
     switch (values) {
     case Values::state:
-        return self.state_[now];
+        return self.state_[side];
     case Values::stateBefore:
-        return self.state_[1 - now];
+        return self.state_[1 - side];
     case Values::records:
-        return self.records_[self.records_[1] ? now : 0];
+        return self.records_[self.records_[1] ? side : 0];
     case Values::recordsBefore:
-        return self.records_[self.records_[1] ? 1 - now : 0];
+        return self.records_[self.records_[1] ? 1 - side : 0];
     case Values::constants:
         return self.constants_;
     case Values::steering:

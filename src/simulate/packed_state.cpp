@@ -18,7 +18,7 @@ struct Packer {
     // Writing: how many molecules there are from `offset` on, with which the packed ones start.
     size_t offset = 0, count = 0;
 
-    size_t at(size_t molecule, int element) const {
+    size_t index(size_t molecule, int element) const {
         return BufferLayout::index(molecule, element, elements, together);
     }
 
@@ -28,7 +28,7 @@ struct Packer {
         for (size_t i = 0; i < count * vertices; ++i) {
             for (int c = 0; c < 3; ++c) {
                 const int number = int(i % vertices) * 3 + c;
-                out[at(i / vertices, firstElement + number / 4)][number % 4] =
+                out[index(i / vertices, firstElement + number / 4)][number % 4] =
                     values[offset * vertices + i][c];
             }
         }
@@ -40,7 +40,7 @@ struct Packer {
         for (size_t i = 0; i < values.size(); ++i) {
             for (int c = 0; c < 3; ++c) {
                 const int number = int(i % vertices) * 3 + c;
-                values[i][c] = packed[at(i / vertices, first + number / 4)][number % 4];
+                values[i][c] = packed[index(i / vertices, first + number / 4)][number % 4];
             }
         }
         return values;
@@ -55,23 +55,23 @@ struct Packer {
             return;
         }
         for (size_t m = 0; m < count; ++m)
-            out[at(m, 2 * part)].x = noHistory;
+            out[index(m, 2 * part)].x = noHistory;
     }
 
     // Lanes past the last molecule do what it does, so that they never do anything worse.
     void repeatLast(std::vector<glm::vec4>& packed) const {
         for (size_t m = count; m < packed.size() / size_t(elements); ++m)
             for (int e = 0; e < elements; ++e)
-                packed[at(m, e)] = packed[at(count - 1, e)];
+                packed[index(m, e)] = packed[index(count - 1, e)];
     }
 
     float& age(size_t molecule, std::vector<glm::vec4>& packed) const {
-        return layout.lifeApart() ? packed[at(molecule, elements - 1)].x
-                                  : packed[at(molecule, layout.positionElements() - 1)].w;
+        return layout.lifeApart() ? packed[index(molecule, elements - 1)].x
+                                  : packed[index(molecule, layout.positionElements() - 1)].w;
     }
     float& span(size_t molecule, std::vector<glm::vec4>& packed) const {
-        return layout.lifeApart() ? packed[at(molecule, elements - 1)].y
-                                  : packed[at(molecule, 2 * layout.positionElements() - 1)].w;
+        return layout.lifeApart() ? packed[index(molecule, elements - 1)].y
+                                  : packed[index(molecule, 2 * layout.positionElements() - 1)].w;
     }
 };
 
@@ -158,7 +158,7 @@ void PackedState::write(const GroupPlan& group, const GroupState& state) {
             for (size_t m = 0; m < packed.size() / steeringElements; ++m)
                 for (size_t e = 0; e < steeringElements; ++e) {
                     const size_t own = (packer.offset + m) * steeringElements + e;
-                    packed[packer.at(m, int(e))] =
+                    packed[packer.index(m, int(e))] =
                         own < state.steering.size() ? state.steering[own] : none[e];
                 }
         });
@@ -191,7 +191,7 @@ GroupState PackedState::readSide(const GroupPlan& group, bool before) const {
         const Packer steeringPacker{layout_, steeringElements, together_};
         for (size_t i = 0; i < count * steeringElements; ++i)
             state.steering.push_back(
-                steering[steeringPacker.at(i / steeringElements, int(i % steeringElements))]);
+                steering[steeringPacker.index(i / steeringElements, int(i % steeringElements))]);
     }
     if (!layout_.life) return state;
     for (size_t m = 0; m < count; ++m) {

@@ -38,11 +38,11 @@ std::optional<RayHit> firstHit(const Ray& ray, const Snapshot& state, const Mole
     };
     for (int m = 0; m < state.count; ++m) {
         if (!state.alive.empty() && !state.alive[size_t(m)]) continue;
-        const glm::dvec3* at = state.positions.data() + size_t(m) * size_t(state.vertexCount);
+        const glm::dvec3* positions = state.positions.data() + size_t(m) * size_t(state.vertexCount);
         for (const Triangle& t : shape.triangles)
-            keep(surface, m, meets(ray, at[t.a], at[t.b], at[t.c]));
+            keep(surface, m, meets(ray, positions[t.a], positions[t.b], positions[t.c]));
         for (int v = 0; v < state.vertexCount; ++v)
-            keep(vertex, m, meetsPoint(ray, at[v], radius, angle));
+            keep(vertex, m, meetsPoint(ray, positions[v], radius, angle));
     }
     if (surface.molecule >= 0) return surface;
     if (vertex.molecule >= 0) return vertex;

@@ -40,8 +40,8 @@ static_assert(stateWidth == 1024, "shaders/state and shaders/passes address rows
 std::string setOnceFor(const GroupPlan& group) {
     std::string out = name(group.solver);
     for (const auto* list : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
-        for (const GroupForces::Entry& one : *list)
-            out += concat(" ", one.force);
+        for (const GroupForces::Entry& entry : *list)
+            out += concat(" ", entry.force);
     for (const glm::vec4& parameter : group.colliderParameters)
         out.append(reinterpret_cast<const char*>(&parameter), sizeof parameter);
     return out;
@@ -132,8 +132,8 @@ const Program& PingPong::makeProgram(gpu::Context& context, PassKind kind, size_
         if (plan.contact.remembers())
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", rowBits(plan.contact.cells()))});
-        for (const std::string& one : contact->defines())
-            wanted.defines.push_back(one);
+        for (const std::string& define : contact->defines())
+            wanted.defines.push_back(define);
     }
     wanted.generated = {{"generated/fields.glsl", plan.fields.source},
                         {"generated/stages.glsl", group.kernel.stages},

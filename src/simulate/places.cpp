@@ -48,13 +48,13 @@ std::vector<uint32_t> Places::stack() const {
     return out;
 }
 
-void Places::restore(const std::vector<double>& ends, const std::vector<uint32_t>& stack, double now) {
+void Places::restore(const std::vector<double>& ends, const std::vector<uint32_t>& stack, double time) {
     ends_ = ends;
     free_.clear();
     next_ = {};
     mark_ = 0;
     for (uint32_t place = 0; place < ends_.size(); ++place) {
-        if (ends_[place] > now) {
+        if (ends_[place] > time) {
             next_.emplace(ends_[place], place);
             mark_ = int(place) + 1;
         } else {

@@ -29,7 +29,7 @@ class Places {
     // All of it, to go on from.
     const std::vector<double>& ends() const { return ends_; }  // of each place, s; free: not above now
     std::vector<uint32_t> stack() const;                       // empty for a heap
-    void restore(const std::vector<double>& ends, const std::vector<uint32_t>& stack, double now);
+    void restore(const std::vector<double>& ends, const std::vector<uint32_t>& stack, double time);
 
   private:
     void giveBack(uint32_t place);

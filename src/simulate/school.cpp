@@ -63,7 +63,7 @@ void TextureSchool::sortKeys() {
     sort_.flip();
     sort_.sort();
     arrays_.lend("sorted", sort_.pairs());
-    arrays_.with(starts_).set("count", school_->entries);
+    arrays_.use(starts_).set("count", school_->entries);
     arrays_.run(starts_, 0, school_->keys + 1);
 }
 
@@ -74,7 +74,7 @@ void TextureSchool::steer(size_t index, const Frame& frame) {
     const SchoolMember& member = school_->members[index];
     const glm::ivec4 range = rangeOf(member.grid);
     arrays_.run(program, range.x, range.y);
-    arrays_.with(steered_).set("grid", range);
+    arrays_.use(steered_).set("grid", range);
     steered_.set("inverseCell", float(1 / cellOf(member.grid)));
     steered_.set("firstBody", school_->bodiesOf(member.group).first);
     steered_.set("entries", school_->entries);

@@ -81,7 +81,7 @@ void SchoolPasses::step(const Frame& frame, gpu::PassTimers& timers) {
         for (size_t b = 0; b < school_->bodies.size(); ++b)
             findBodies(b);
         sortKeys();
-        arrays_.with(order_);
+        arrays_.use(order_);
         if (!hasTextures()) order_.set("keyCount", school_->keys);
         arrays_.run(order_, 0, school_->entries);
     }
@@ -122,7 +122,7 @@ glm::ivec4 SchoolPasses::rangeOf(size_t g) const {
 
 void SchoolPasses::findBodies(size_t index) {
     const SchoolBodies& bodies = school_->bodies[index];
-    const Program& program = arrays_.with(*bodyPrograms_[index]);
+    const Program& program = arrays_.use(*bodyPrograms_[index]);
     program.set("origin", glm::vec3(school_->origin));
     const PackedState& state = stateOf(bodies.group);
     const std::vector<MoleculeRange> ranges = state.ranges();
@@ -142,14 +142,14 @@ const Program& SchoolPasses::useKeys() const {
         ranges.emplace_back(grid.firstEntry, school_->bodiesOf(grid.group).first, grid.firstKey, grid.keys);
         sizes.emplace_back(float(1 / cellOf(g)), 0, 0, 0);
     }
-    arrays_.with(keys_);
+    arrays_.use(keys_);
     keys_.set("gridRanges", std::span<const glm::ivec4>(ranges));
     keys_.set("cellSizes", std::span<const glm::vec4>(sizes));
     return keys_;
 }
 
 const Program& SchoolPasses::useSteer(size_t member, const Frame& frame) const {
-    arrays_.with(*members_[member].steer);
+    arrays_.use(*members_[member].steer);
     setRules(member, frame);
     return *members_[member].steer;
 }
@@ -215,10 +215,11 @@ void SchoolPasses::setRules(size_t index, const Frame& frame) const {
 bool SchoolPasses::change(size_t group, const School& school) {
     for (size_t m = 0; m < members_.size(); ++m) {
         if (school_->members[m].group != group) continue;
-        const School& now = members_[m].school;
+        const School& present = members_[m].school;
         const bool walls = plan_->groups[group].needs.avoids;
-        if (!sameTargets(now.flees, school.flees) || !sameTargets(now.hunts, school.hunts)) return false;
-        if (!walls && school.walls > 0 && now.walls == 0) return false;
+        if (!sameTargets(present.flees, school.flees) || !sameTargets(present.hunts, school.hunts))
+            return false;
+        if (!walls && school.walls > 0 && present.walls == 0) return false;
         members_[m].school = school;
         return true;
     }

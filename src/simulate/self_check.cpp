@@ -27,8 +27,8 @@ constexpr double side = 0.1;  // m, of a square
 Molecule square() {
     Molecule out;
     out.name = "self-check";
-    for (const glm::dvec3& at : {glm::dvec3(0), {side, 0, 0}, {side, 0, side}, {0, 0, side}})
-        out.vertices.push_back({.position = at, .mass = 0.01});
+    for (const glm::dvec3& corner : {glm::dvec3(0), {side, 0, 0}, {side, 0, side}, {0, 0, side}})
+        out.vertices.push_back({.position = corner, .mass = 0.01});
     for (const auto& [a, b] : {std::pair(0, 1), {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}})
         out.springs.push_back({a, b, 50, 0.02, {}, {}});
     out.triangles = {{0, 2, 1}, {0, 3, 2}};
@@ -113,9 +113,9 @@ std::string keyOf(const gpu::Context& context, Path path, CheckedPart part) {
 std::string fileKey(const gpu::Context& context, std::string all) {
     std::vector<std::filesystem::path> files;
     std::error_code code;  // a context without shaders says so when a program is made
-    for (std::filesystem::recursive_directory_iterator at(context.shaders(), code), end; !code && at != end;
-         at.increment(code))
-        if (at->is_regular_file(code)) files.push_back(at->path());
+    for (std::filesystem::recursive_directory_iterator file(context.shaders(), code), end;
+         !code && file != end; file.increment(code))
+        if (file->is_regular_file(code)) files.push_back(file->path());
     std::sort(files.begin(), files.end());
     for (const std::filesystem::path& file : files)
         all += readFile(file);

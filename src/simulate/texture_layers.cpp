@@ -5,15 +5,15 @@ namespace shoal {
 std::vector<glm::vec4> byElement(const std::vector<glm::vec4>& layered, size_t stride, size_t count) {
     std::vector<glm::vec4> out;
     for (size_t i = 0; i < count; ++i)
-        for (size_t at = i; at < layered.size(); at += stride)
-            out.push_back(layered[at]);
+        for (size_t value = i; value < layered.size(); value += stride)
+            out.push_back(layered[value]);
     return out;
 }
 
-std::vector<glm::vec4> byLayer(const std::vector<glm::vec4>& of, size_t stride, size_t count) {
-    std::vector<glm::vec4> out(count > 0 ? of.size() / count * stride : 0);
-    for (size_t i = 0; i < of.size(); ++i)
-        out[i % (of.size() / count) * stride + i / (of.size() / count)] = of[i];
+std::vector<glm::vec4> byLayer(const std::vector<glm::vec4>& values, size_t stride, size_t count) {
+    std::vector<glm::vec4> out(count > 0 ? values.size() / count * stride : 0);
+    for (size_t i = 0; i < values.size(); ++i)
+        out[i % (values.size() / count) * stride + i / (values.size() / count)] = values[i];
     return out;
 }
 

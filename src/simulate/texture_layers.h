@@ -35,6 +35,6 @@ void writeLayers(gpu::Texture& texture, std::vector<T> values) {
 
 // Layers become the values of one element after another, and back.
 std::vector<glm::vec4> byElement(const std::vector<glm::vec4>& layered, size_t stride, size_t count);
-std::vector<glm::vec4> byLayer(const std::vector<glm::vec4>& of, size_t stride, size_t count);
+std::vector<glm::vec4> byLayer(const std::vector<glm::vec4>& values, size_t stride, size_t count);
 
 }  // namespace shoal

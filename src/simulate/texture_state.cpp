@@ -31,7 +31,7 @@ static TwoSided makeSides(gpu::Context& context, const Plan& plan, int rows, con
     TwoSided sides;
     for (Texture& texture : sides.side)
         texture = makeTexture(context, plan, rows, label);
-    sides.now.assign(plan.groups.size(), 0);
+    sides.currentSide.assign(plan.groups.size(), 0);
     return sides;
 }
 

@@ -31,12 +31,12 @@ class Program;
 // Two textures, of which each group has its own current side: a group that did not step is never stale.
 struct TwoSided {
     std::array<gpu::Texture, 2> side;
-    std::vector<int> now;  // per group
+    std::vector<int> currentSide;  // per group
 
-    gpu::Texture& current(size_t group) { return side[size_t(now[group])]; }
-    const gpu::Texture& read(size_t group) const { return side[size_t(now[group])]; }
-    const gpu::Texture& write(size_t group) const { return side[size_t(1 - now[group])]; }
-    void flip(size_t group) { now[group] = 1 - now[group]; }
+    gpu::Texture& current(size_t group) { return side[size_t(currentSide[group])]; }
+    const gpu::Texture& read(size_t group) const { return side[size_t(currentSide[group])]; }
+    const gpu::Texture& write(size_t group) const { return side[size_t(1 - currentSide[group])]; }
+    void flip(size_t group) { currentSide[group] = 1 - currentSide[group]; }
     explicit operator bool() const { return bool(side[0]); }
 };
 

@@ -20,7 +20,7 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
       controls(running.simulation().plan()),
       panel(running.original()),
       scenePanel(running.scene),
-      camera(View::of(running.scene.camera)) {
+      camera(View::fromCamera(running.scene.camera)) {
     explanations = std::make_unique<Explanations>(context, running.scene, simulation().plan());
     reload.follow(running, true);
     checkSave(request);
@@ -34,7 +34,7 @@ void OpenScene::follow() {
     controls.follow(plan);
     panel.follow(running.original());
     scenePanel.follow(running.scene);
-    camera.start(View::of(running.scene.camera));
+    camera.start(View::fromCamera(running.scene.camera));
     reload.follow(running, false);
     timeLine.forget();
     const ExplanationSettings settings = explanations->settings;

@@ -97,7 +97,7 @@ std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path 
         GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());
         simulation->load(gone.state);
         simulation->parameters = carriedParameters(simulation_->parameters, simulation->parameters);
-        renderer->draw(simulation->state(), View::of(scene.camera, simulation_->time()));
+        renderer->draw(simulation->state(), View::fromCamera(scene.camera, simulation_->time()));
         restarted = std::move(gone.restarted);
     }
     renderer_ = std::move(renderer);

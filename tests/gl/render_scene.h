@@ -62,7 +62,7 @@ inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.
     Shown out;
     const uint64_t before = simulation.hash();
     const gpu::Traffic start = context.traffic();
-    renderer.draw(simulation.state(), View::of(scene.camera, time));
+    renderer.draw(simulation.state(), View::fromCamera(scene.camera, time));
     out.moved = context.traffic() - start;
     out.stateUnchanged = simulation.hash() == before;
     out.image = renderer.capture();

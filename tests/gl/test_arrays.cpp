@@ -58,8 +58,8 @@ TEST_CASE("passes over arrays read what passes before have written", "[arrays]")
         };
         const Program fills = make(first), adds = make(second);
         drawPlainly();
-        arrays.run(arrays.with(fills), 0, places);
-        arrays.run(arrays.with(adds), 0, places);
+        arrays.run(arrays.use(fills), 0, places);
+        arrays.run(arrays.use(adds), 0, places);
         arrays.settle();
         std::vector<glm::vec4> sums(textures ? 16 * 13 : places);
         if (textures)

@@ -46,7 +46,7 @@ class Drawn {
     explicit Drawn(const Scene& scene)
         : simulation_(testContext(), compile(scene), {.path = testPath()}),
           renderer(testContext(), scene, simulation_.plan(), {.width = 96, .height = 72}),
-          view_(View::of(scene.camera)) {
+          view_(View::fromCamera(scene.camera)) {
         run(simulation_, 6);
     }
 

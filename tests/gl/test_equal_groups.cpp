@@ -65,7 +65,7 @@ TEST_CASE("A group's name may be as long as it likes", "[fused][render]") {
     RenderOptions options;
     options.width = options.height = 32;
     Renderer renderer(testContext(), scene, simulation.plan(), options);
-    renderer.draw(simulation.state(), View::of(scene.camera, 0));
+    renderer.draw(simulation.state(), View::fromCamera(scene.camera, 0));
     {
         const gpu::DebugGroup group(testContext().info(), wide.c_str());
         gpu::Texture texture(testContext(), gpu::Format::rgba8, 1, 1, wide.c_str());

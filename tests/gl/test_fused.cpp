@@ -98,11 +98,12 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             RenderOptions size;
             size.width = 160, size.height = 120;
             Renderer renderer(context, scene, plan, size);
-            renderer.draw(whole.state(), View::of(scene.camera));
+            renderer.draw(whole.state(), View::fromCamera(scene.camera));
             const Image expected = renderer.capture();
-            renderer.draw(split.state(), View::of(scene.camera));
+            renderer.draw(split.state(), View::fromCamera(scene.camera));
             CHECK(renderer.capture().pixels == expected.pixels);
-            renderer.draw(Simulation(context, plan, {.path = Path::fused}).state(), View::of(scene.camera));
+            renderer.draw(Simulation(context, plan, {.path = Path::fused}).state(),
+                          View::fromCamera(scene.camera));
             CHECK(renderer.capture().pixels != expected.pixels);
         }
     }

@@ -186,7 +186,7 @@ TEST_CASE("a picture takes another size, and every number of samples", "[render]
         Renderer renderer(testContext(), scene, plan, {.width = 64, .height = 48, .samples = samples});
         const Simulation simulation(testContext(), plan, {.path = testPath()});
         renderer.resize(101, 37);
-        renderer.draw(simulation.state(), View::of(scene.camera));
+        renderer.draw(simulation.state(), View::fromCamera(scene.camera));
         const Image image = renderer.capture();
         REQUIRE(image.width == 101);
         REQUIRE(image.height == 37);

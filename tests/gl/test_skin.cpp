@@ -80,7 +80,7 @@ TEST_CASE("far skins are drawn with fewer triangles, and look the same", "[rende
     const auto triangles = [&](const RenderOptions& options) {
         Renderer renderer(context, scene, plan, options);
         Simulation simulation(context, plan, {.path = testPath()});
-        renderer.draw(simulation.state(), View::of(scene.camera));
+        renderer.draw(simulation.state(), View::fromCamera(scene.camera));
         return renderer.drawnPrimitives();
     };
     const uint64_t all = 2048 * count, drawn = triangles({.width = 320, .height = 240});

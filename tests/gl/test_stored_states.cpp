@@ -40,7 +40,7 @@ BenchDevice deviceHere() {
 Image draw(const Scene& scene, const Simulation& simulation) {
     Renderer renderer(testContext(), scene, simulation.plan(),
                       {.width = blockColumns * blockSide, .height = blockRows * blockSide});
-    renderer.draw(simulation.state(), View::of(scene.camera, simulation.time()));
+    renderer.draw(simulation.state(), View::fromCamera(scene.camera, simulation.time()));
     return renderer.capture();
 }
 

@@ -21,7 +21,7 @@ static gpu::Traffic trafficOfFrames(gpu::PassTimers::Mode timing, int frames) {
     REQUIRE(before.up(Kind::state) > 0);  // the start state did cross, so the counter counts
     for (int i = 0; i < frames; ++i) {
         simulation.frame();
-        renderer.draw(simulation.state(), View::of(scene.camera));
+        renderer.draw(simulation.state(), View::fromCamera(scene.camera));
     }
     return testContext().traffic() - before;
 }

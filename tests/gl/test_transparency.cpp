@@ -234,7 +234,7 @@ TEST_CASE("where nothing is blended there is no pass for it", "[render][transpar
         Renderer renderer(testContext(), scene, plan,
                           {.width = 64, .height = 64, .timing = gpu::PassTimers::Mode::finish});
         const Simulation simulation(testContext(), plan, {.path = testPath()});
-        renderer.draw(simulation.state(), View::of(scene.camera));
+        renderer.draw(simulation.state(), View::fromCamera(scene.camera));
         std::vector<std::string> names;
         for (const gpu::PassTime& pass : renderer.timers().report())
             names.push_back(pass.name);

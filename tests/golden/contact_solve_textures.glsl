@@ -260,9 +260,9 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
     float touchSpeed = dot(touch, u);
     bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
     float apart = sqrt(squared);
-    vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
-    return PairContact(impact ? touch : now, impact ? since : 0.0f, reach - apart,
-                       impact ? touchSpeed : dot(now, u), impact);
+    vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    return PairContact(impact ? touch : direction, impact ? since : 0.0f, reach - apart,
+                       impact ? touchSpeed : dot(direction, u), impact);
 }
 vec3 pairImpulse(vec3 u, vec3 n, float target, vec3 pushed, vec2 w)
 {

@@ -98,7 +98,7 @@ void loadUniforms()
     releaseForce = inRegister(givenNumbers[6].x);
     releaseChance = inRegister(givenNumbers[6].y);
 }
-vec3 carried(vec3 before, vec3 now) { return !CARRIES || substeps > 0 ? now : before; }
+vec3 carried(vec3 before, vec3 after) { return !CARRIES || substeps > 0 ? after : before; }
 vec3 x[VERTICES];
 vec3 v[VERTICES];
 vec3 w[VERTICES];
@@ -550,11 +550,11 @@ vec3 turnedBack(vec4 q, vec3 v)
 }
 vec4 anyRotation(float u, float v, float w)
 {
-    float one = 6.2831853f * v;
-    float two = 6.2831853f * w;
+    float angleA = 6.2831853f * v;
+    float angleB = 6.2831853f * w;
     float a = sqrt(1.0f - u);
     float b = sqrt(u);
-    return vec4(a * sin(one), a * cos(one), b * sin(two), b * cos(two));
+    return vec4(a * sin(angleA), a * cos(angleA), b * sin(angleB), b * cos(angleB));
 }
 const float noDirection = 1e-15f;
 vec4 sphereSurface(vec3 x, float radius)

@@ -107,7 +107,7 @@ void loadUniforms()
     releaseForce = inRegister(givenNumbers[6].x);
     releaseChance = inRegister(givenNumbers[6].y);
 }
-vec3 carried(vec3 before, vec3 now) { return !CARRIES || substeps > 0 ? now : before; }
+vec3 carried(vec3 before, vec3 after) { return !CARRIES || substeps > 0 ? after : before; }
 vec3 x[VERTICES];
 vec3 v[VERTICES];
 vec3 w[VERTICES];
@@ -183,15 +183,15 @@ int sharedIndex(int array, int number)
 }
 vec3 sharedVector(int array, int vertex)
 {
-    int at = sharedIndex(array, 3 * vertex);
-    return vec3(sharedNumbers[at], sharedNumbers[at + LANES], sharedNumbers[at + 2 * LANES]);
+    int index = sharedIndex(array, 3 * vertex);
+    return vec3(sharedNumbers[index], sharedNumbers[index + LANES], sharedNumbers[index + 2 * LANES]);
 }
 void setSharedVector(int array, int vertex, vec3 value)
 {
-    int at = sharedIndex(array, 3 * vertex);
-    sharedNumbers[at] = value.x;
-    sharedNumbers[at + LANES] = value.y;
-    sharedNumbers[at + 2 * LANES] = value.z;
+    int index = sharedIndex(array, 3 * vertex);
+    sharedNumbers[index] = value.x;
+    sharedNumbers[index + LANES] = value.y;
+    sharedNumbers[index + 2 * LANES] = value.z;
 }
 void share(int array, int i, vec3 value)
 {
@@ -717,11 +717,11 @@ vec3 turnedBack(vec4 q, vec3 v)
 }
 vec4 anyRotation(float u, float v, float w)
 {
-    float one = 6.2831853f * v;
-    float two = 6.2831853f * w;
+    float angleA = 6.2831853f * v;
+    float angleB = 6.2831853f * w;
     float a = sqrt(1.0f - u);
     float b = sqrt(u);
-    return vec4(a * sin(one), a * cos(one), b * sin(two), b * cos(two));
+    return vec4(a * sin(angleA), a * cos(angleA), b * sin(angleB), b * cos(angleB));
 }
 const float noDirection = 1e-15f;
 vec4 sphereSurface(vec3 x, float radius)

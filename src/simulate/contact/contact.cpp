@@ -24,8 +24,8 @@ void Contact::step(const Frame& frame, gpu::PassTimers& timers) {
         {"slots", "oldSlots"},     {"counts", "oldCounts"},       {"lists", "oldLists"},
         {"anchors", "oldAnchors"}, {"warmStart", "oldWarmStart"}, {"colliders", "oldColliders"},
         {"dropped", "oldDropped"}};
-    for (const auto& [now, old] : sides)
-        if (data_.textures) data_.arrays.swap(now, old);
+    for (const auto& [name, old] : sides)
+        if (data_.textures) data_.arrays.swap(name, old);
     {
         const auto timer = timers.time("contact grid");
         grid_.build(frame, rest_ && rest_->wakes());

@@ -157,7 +157,7 @@ void ContactData::setTimes(const Program& program, const ContactStep& times) {
 }
 
 const Program& ContactData::withResponse(const Program& program, const ContactStep& times) const {
-    with(program).set("count", contact->spheres);
+    use(program).set("count", contact->spheres);
     program.set("cell", float(contact->cell));
     program.set("groupCount", int(contact->groups.size()));
     if (!textures) program.set("listStride", int(padded));
@@ -166,7 +166,7 @@ const Program& ContactData::withResponse(const Program& program, const ContactSt
 }
 
 const Program& ContactData::withPart(const Program& program, const ContactGroup& group, size_t part) const {
-    with(program);
+    use(program);
     state->bind(program, group.group, part);
     if (program.uses("firstShape"))
         program.set("firstShape", firstShapes_[size_t(&group - contact->groups.data())]);

@@ -45,7 +45,7 @@ class ContactData : public ContactFacts {
     // A stage of all spheres, FILE.pass.glsl below the shaders' root, and of one group.
     gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {}) const;
     gpu::Program groupStage(const ContactGroup& group, const std::string& file) const;
-    const gpu::Program& with(const gpu::Program& program) const { return arrays.with(program); }
+    const gpu::Program& use(const gpu::Program& program) const { return arrays.use(program); }
     // With what all stages of the response are given.
     const gpu::Program& withResponse(const gpu::Program& program, const ContactStep& times) const;
     // With a part of a group: its state, and its spheres.

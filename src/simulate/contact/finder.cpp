@@ -26,7 +26,7 @@ ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
 }
 
 void ContactFinder::find(const Program& program, const ContactStep& times) {
-    data_->with(program).set("count", data_->contact->spheres);
+    data_->use(program).set("count", data_->contact->spheres);
     program.set("cell", float(data_->contact->cell));
     program.set("keyMask", data_->keyMask());
     if (data_->contact->settings.search == ContactSearch::exact)
@@ -47,7 +47,7 @@ void ContactFinder::find(const Program& program, const ContactStep& times) {
 void ContactFinder::wake() {
     const int furthest = std::min(data_->contact->settings.iterations, 24);
     for (int away = 0; away <= furthest; ++away) {
-        data_->with(wake_).set("count", data_->contact->spheres);
+        data_->use(wake_).set("count", data_->contact->spheres);
         wake_.set("listStride", int(data_->padded));
         wake_.set("contactsAway", away);
         wake_.set("last", int(away == furthest));
@@ -57,7 +57,7 @@ void ContactFinder::wake() {
 
 void ContactFinder::run(const ContactStep& times) {
     if (data_->rests) {
-        data_->with(awake_).set("count", data_->contact->spheres);
+        data_->use(awake_).set("count", data_->contact->spheres);
         awake_.set("listStride", int(data_->padded));
         data_->runAll(awake_);
     }

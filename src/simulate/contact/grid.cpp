@@ -72,24 +72,24 @@ void ContactGrid::sortByRadix(bool isStaggered) {
     radix_->sort(data_->arrays.buffer("sorted"), size_t(data_->contact->spheres), data_->contact->tableBits);
     data_->arrays.settle();
     if (isStaggered) return;
-    data_->with(order_).set("keys", data_->keyMask() + 1);
+    data_->use(order_).set("keys", data_->keyMask() + 1);
     data_->runAll(order_);
 }
 
 void ContactGrid::count(bool isStaggered) {
     const int keys = data_->keyMask() + 1;
-    data_->with(starts_).set("keys", keys);
+    data_->use(starts_).set("keys", keys);
     data_->arrays.runGroups(starts_, int((size_t(keys) + ContactData::cellTile - 1) / ContactData::cellTile));
-    data_->with(members_).set("keys", keys);
+    data_->use(members_).set("keys", keys);
     data_->runAll(members_);
-    data_->with(order_);
+    data_->use(order_);
     if (data_->staggers) order_.set("onlyKeys", int(isStaggered));
     data_->runAll(order_);
 }
 
 void ContactGrid::sortByNetwork(bool isStaggered) {
     NetworkSort& sort = networks_[isStaggered ? 1 : 0];
-    data_->with(keys_).set("numbers", data_->contact->spheres);
+    data_->use(keys_).set("numbers", data_->contact->spheres);
     keys_.set("keyMask", data_->keyMask());
     keys_.set("cell", float(data_->contact->cell));
     keys_.set("isStaggered", int(isStaggered));
@@ -106,10 +106,10 @@ void ContactGrid::build(const Frame& frame, bool wakes) {
         makeColliders(frame);
         for (size_t i = 0; i < networks_.size(); ++i)
             sortByNetwork(i == 1);
-        data_->with(starts_).set("count", data_->contact->spheres);
+        data_->use(starts_).set("count", data_->contact->spheres);
         data_->arrays.run(starts_, 0, data_->keyMask() + 1);
-        data_->runAll(data_->with(order_));
-        data_->with(slots_).set("keyMask", data_->keyMask());
+        data_->runAll(data_->use(order_));
+        data_->use(slots_).set("keyMask", data_->keyMask());
         return data_->runAll(slots_);
     }
     for (const bool isStaggered : {true, false}) {

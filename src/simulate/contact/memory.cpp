@@ -22,10 +22,10 @@ ContactMemory bySphere(const ContactSlots& from) {
         out.counts.push_back(from.counts[slot]);
         out.known.emplace_back(glm::vec3(from.known[slot]), 0.0f);
         for (size_t e = 0; e < from.counts[slot]; ++e) {
-            const size_t at = e * from.stride + slot;
-            out.partners.push_back(sphereOf[from.lists[at]]);
-            out.pushes.push_back(from.pushes[at]);
-            out.anchors.push_back(from.anchors[at]);
+            const size_t entry = e * from.stride + slot;
+            out.partners.push_back(sphereOf[from.lists[entry]]);
+            out.pushes.push_back(from.pushes[entry]);
+            out.anchors.push_back(from.anchors[entry]);
         }
     }
     out.loads = from.loads;

@@ -163,7 +163,7 @@ void ContactSolver::applyGains(const ContactStep& times) {
         const ContactData::Spheres spheres = data_->spheresOf(group, molecules);
         const bool many = data_->manyAct(group);
         const Program& program =
-            many ? data_->withPart(groups_[g].apply, group, part) : data_->with(groups_[g].apply);
+            many ? data_->withPart(groups_[g].apply, group, part) : data_->use(groups_[g].apply);
         program.set("stepTime", float(times.step));
         if (many) program.set("firstSphere", spheres.first);
         data_->arrays.run(program, spheres.first, spheres.count);
