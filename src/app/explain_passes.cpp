@@ -1,6 +1,7 @@
 #include "app/explain_passes.h"
 
 #include "core/printable.h"
+#include "render/renderer.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
@@ -28,16 +29,24 @@ FramePasses framePasses(const Options& options, const Loaded& loaded) {
     simulationOptions.lanes = options.lanes;
     simulationOptions.inPlace = options.inPlace;
     Simulation simulation(context, loaded.plan, simulationOptions);
-    simulation.frame();
+    // A small one: its size changes at most with how many triangles a far skin is drawn.
+    Renderer renderer(context, loaded.scene, simulation.plan(), {.width = 320, .height = 180});
+    const auto frame = [&] {
+        simulation.frame();
+        renderer.draw(simulation.state(), View::fromCamera(loaded.scene.camera, simulation.time()));
+    };
+    frame();
     const gpu::FrameRecord record;
-    simulation.frame();
+    frame();
     context.checkErrors("--passes");
     return {measuredOn(context), record.rows()};
 }
 
 std::string asText(const FramePasses& passes) {
-    std::string out = asText(passes.machine) +
-                      "\n\na frame, in the order of first use: how often, and what each reads and writes\n";
+    std::string out =
+        asText(passes.machine) +
+        "\n\na frame and its picture, by the stages of run --timings: each pass, how often, and what it "
+        "reads and writes\n";
     std::string stage;
     for (const gpu::PassRow& row : passes.rows) {
         if (row.stage != stage) out += concat(row.stage, "\n");

@@ -12,10 +12,10 @@ namespace shoal::app {
 
 struct FramePasses {
     MeasuredOn machine;
-    std::vector<gpu::PassRow> rows;  // of the simulation alone
+    std::vector<gpu::PassRow> rows;
 };
 
-// Makes a context and runs the scene's second frame there: the first also makes what is made once.
+// Makes a context, and runs and draws the scene's second frame there: the first also makes what is made once.
 FramePasses framePasses(const Options& options, const Loaded& loaded);
 std::string asText(const FramePasses& passes);
 JsonValue asJson(const FramePasses& passes);

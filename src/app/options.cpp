@@ -137,7 +137,8 @@ void addRun(CLI::App& command, Options& options) {
     addFile(command, "--resume", options.resume,
             "Go on from the state in this file; --frames are further ones");
     section(command, reports);
-    command.add_flag("--timings", options.timings, "Measure the time of each pass");
+    command.add_flag("--timings", options.timings,
+                     "Measure the time of each stage, whose passes explain --passes lists");
     section(command, "Window");
     addScale(command, options, "Size of panels and letters, such as 2 (default: as the screen asks)");
     addFile(command, "--screenshot", options.screenshot, "Save its picture after --frames and close");

@@ -97,7 +97,7 @@ std::string text(const GroupLives& lives) {
 }
 
 JsonValue asJson(const gpu::PassTime& pass) {
-    return object(key("pass", pass.name), key("callsPerFrame", pass.calls), key("minSeconds", pass.min),
+    return object(key("stage", pass.name), key("callsPerFrame", pass.calls), key("minSeconds", pass.min),
                   key("medianSeconds", pass.median));
 }
 
@@ -113,7 +113,7 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
                            key("time", simulation.time()), key("seconds", report.seconds),
                            key("stateBytes", simulation.stateBytes()), key("busBytes", bytes),
                            key("hash", formatted("%016llx", static_cast<unsigned long long>(hash))));
-    if (!times.empty()) append(out, key("passes", arrayOf(times, asJson)));
+    if (!times.empty()) append(out, key("stages", arrayOf(times, asJson)));
     append(out, key("written", report.written));
     if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
     if (simulation.contact())

@@ -8,6 +8,7 @@
 namespace shoal::gpu {
 
 static FrameRecord* recording = nullptr;
+static uint64_t passesSoFar = 0;
 
 FrameRecord::FrameRecord() {
     EXPECTS(!recording);
@@ -18,6 +19,10 @@ FrameRecord::~FrameRecord() {
     recording = nullptr;
 }
 
+uint64_t FrameRecord::passes() {
+    return passesSoFar;
+}
+
 void FrameRecord::enter(const char* stage) {
     if (recording) recording->stage_ = stage;
 }
@@ -26,6 +31,7 @@ void FrameRecord::enter(const char* stage) {
 void FrameRecord::add(const std::string& pass, const std::vector<std::string>& samplers,
                       const std::vector<std::string>& blocks, const std::vector<std::string>& written,
                       const std::vector<std::string>& updated) {
+    ++passesSoFar;
     if (!recording) return;
     PassRow row{recording->stage_, pass, 0, samplers, {}};
     row.reads.insert(row.reads.end(), updated.begin(), updated.end());
@@ -39,7 +45,11 @@ void FrameRecord::add(const std::string& pass, const std::vector<std::string>& s
         return other.stage == row.stage && other.pass == row.pass && other.reads == row.reads &&
                other.writes == row.writes;
     });
-    if (known == rows.end()) known = rows.insert(rows.end(), row);
+    if (known == rows.end()) {
+        const auto last = std::find_if(rows.rbegin(), rows.rend(),
+                                       [&](const PassRow& other) { return other.stage == row.stage; });
+        known = rows.insert(last == rows.rend() ? rows.end() : last.base(), row);
+    }
     ++known->times;
 }
 

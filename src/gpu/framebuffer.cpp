@@ -4,6 +4,7 @@
 
 #include "core/contract.h"
 #include "core/error.h"
+#include "gpu/frame_record.h"
 
 namespace shoal::gpu {
 
@@ -118,6 +119,7 @@ void Framebuffer::bindDefault(int width, int height) {
 
 void Framebuffer::blit(const Framebuffer& other, GLbitfield what) const {
     EXPECTS(width_ == other.width_ && height_ == other.height_);
+    FrameRecord::add(what == GL_DEPTH_BUFFER_BIT ? "copy of depth" : "copy of light", {}, {}, {}, {});
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);

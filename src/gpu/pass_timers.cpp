@@ -20,16 +20,16 @@ PassTimers::Mode PassTimers::suitedTo(const ContextInfo& info) {
 }
 
 PassTimers::Scope::Scope(PassTimers& timers, const char* name)
-    : timers_(timers), group_(*timers.info_, name) {
+    : timers_(timers), group_(*timers.info_, name), name_(name), passesBefore_(FrameRecord::passes()) {
     FrameRecord::enter(name);
     if (!timers.inFrame_) return;
-    EXPECTS(!timers.inPass_ && "passes do not nest");
+    EXPECTS(!timers.inPass_ && "stages do not nest");
     timers.inPass_ = true;
     open_ = true;
     if (timers.mode_ == Mode::off) return;
     Frame& frame = timers.frame_;
     call_ = static_cast<int>(frame.calls.size());
-    frame.calls.push_back({timers.passIndex(name), -1, 0});
+    frame.calls.emplace_back();
     if (timers.mode_ == Mode::finish) {
         glFinish();
         start_ = std::chrono::steady_clock::now();
@@ -45,13 +45,20 @@ PassTimers::Scope::~Scope() {
     if (!open_) return;
     timers_.inPass_ = false;
     if (call_ < 0) return;
-    Call& call = timers_.frame_.calls[static_cast<size_t>(call_)];
+    Frame& frame = timers_.frame_;
+    Call& call = frame.calls[static_cast<size_t>(call_)];
     if (timers_.mode_ == Mode::finish) {
         glFinish();
         call.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     } else if (call.query >= 0) {
         glEndQuery(GL_TIME_ELAPSED);
     }
+    if (FrameRecord::passes() != passesBefore_) {
+        call.pass = timers_.passIndex(name_);
+        return;
+    }
+    if (call.query >= 0) --frame.used;
+    frame.calls.pop_back();
 }
 
 // A frame has about as many calls as the one before: the window lies in those, and wraps around.
@@ -62,7 +69,7 @@ bool PassTimers::sampled(int call) const {
     return fromStart < queriesPerFrame;
 }
 
-int PassTimers::passIndex(const char* name) {
+int PassTimers::passIndex(const std::string& name) {
     const auto found =
         std::find_if(passes_.begin(), passes_.end(), [&](const Pass& pass) { return pass.name == name; });
     if (found != passes_.end()) return static_cast<int>(found - passes_.begin());

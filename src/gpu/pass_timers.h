@@ -1,4 +1,6 @@
-// How long each named pass takes. The name of a pass is its timer, its debug group and its row in the panel.
+// How long each stage of a frame takes: passes that follow one another under one name. It is the name of its
+// timer, of its debug group, of its row in the panel and of its passes in a record (gpu/frame_record.h); a
+// call without passes does not count.
 //
 // A value is the seconds that all calls under one name took together in one frame. In query mode the results
 // are read back a few frames later, when they are there, so that nothing waits; and a frame reads at most
@@ -50,11 +52,13 @@ class PassTimers {
         Scope(PassTimers& timers, const char* name);
         PassTimers& timers_;
         DebugGroup group_;
+        std::string name_;
+        uint64_t passesBefore_;
         bool open_ = false;  // inside a frame
         int call_ = -1;      // of this frame; -1: not timed
         std::chrono::steady_clock::time_point start_;
     };
-    // auto t = timers.time("advect"); until the end of the block. Passes do not nest (a contract). Outside a
+    // auto t = timers.time("advect"); until the end of the block. Stages do not nest (a contract). Outside a
     // frame, and when off, this is a debug group only.
     [[nodiscard]] Scope time(const char* name) { return Scope(*this, name); }
 
@@ -84,7 +88,7 @@ class PassTimers {
         int used = 0;
     };
 
-    int passIndex(const char* name);
+    int passIndex(const std::string& name);
     bool sampled(int call) const;
     bool collectOldest(bool wait);
     void record(const std::vector<Call>& calls);

@@ -216,6 +216,7 @@ void SlabDraws::bind(const gpu::Program& program) const {
 void SlabDraws::draw(int slab) const {
     const auto* offset =
         reinterpret_cast<const void*>(size_t(slab) * drawBytes);  // OpenGL's way to say an offset
+    gpu::beginPass();
     if (streams_[0].indexed)
         glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, offset);
     else

@@ -81,6 +81,7 @@ void GroupDrawer::submit(const gpu::Program& program, const StateView& state, si
         const int instances = (count + stream.batch - 1) / stream.batch;
         // OpenGL's way to say an offset
         const auto* offset = reinterpret_cast<const void*>(size_t(stream.first) * sizeof(uint32_t));
+        gpu::beginPass();
         if (stream.indexed)
             glDrawElementsInstanced(GL_TRIANGLES, stream.corners, GL_UNSIGNED_INT, offset, instances);
         else

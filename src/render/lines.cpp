@@ -56,6 +56,7 @@ void LineDrawer::draw(const std::vector<Line>& lines, double width, const DrawIn
     program_.use();
     program_.set("toClip", inputs.eye.toClip);
     array_.bind();
+    gpu::beginPass();
     glDrawArrays(GL_TRIANGLES, 0, GLsizei(corners.size()));
 }
 
@@ -128,6 +129,7 @@ void SpringLines::draw(Drawn& group, const StateView& state, const DrawInputs& i
             lines.texture("constants", (*state.layers)[group.reader.index].constants());
         lines.set("firstMolecule", only ? *only - first : 0);
         group.array.bind();
+        gpu::beginPass();
         glDrawArraysInstanced(GL_TRIANGLES, 0, group.corners, only ? 1 : count);
     };
     if (!state.buffers) return submit(nullptr, 0, group.count);

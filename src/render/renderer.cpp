@@ -157,7 +157,10 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         samples_.bind();
     }
     if (groups_.blends() || surfaces_.blends()) drawBlended(state, inputs, view.time);
-    samples_.blitTo(lightTarget_);
+    {
+        const auto timer = timers_.time("resolve");
+        samples_.blitTo(lightTarget_);
+    }
     if (beams_) {
         const auto timer = timers_.time("beams");
         beams_.draw(eye, lighting_, sceneDepth_);

@@ -220,6 +220,7 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
 
 void SurfaceDrawer::submit(const Drawn& surface, const Look& look) const {
     surface.array.bind();
+    gpu::beginPass();
     glDrawElements(GL_TRIANGLES, look.indexCount, GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(size_t(look.firstIndex) * sizeof(uint32_t)));
 }

@@ -78,6 +78,7 @@ void WaterLight::draw(double time) {
     program_.use();
     applyWaves(program_, time);
     grid_.bind();
+    gpu::beginPass();
     glDrawElements(GL_TRIANGLES, 6 * cells * cells, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_BLEND);
     caustics_.setLinear(true, true);

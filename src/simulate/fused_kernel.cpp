@@ -372,7 +372,8 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     if (options.targets && born)
         out.generated["generated/newborn.frag"] =
             newbornText(targetsOf(storedByDraws(group, options.work), options));
-    out.label = concat(born ? "births of " : "fused step of ", group.name);
+    constexpr const char* labels[] = {"fused step", "normals", "watch", "contact touched", "births"};  // Work
+    out.label = concat(labels[size_t(options.work)], " of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         expand(source, loops);
     };

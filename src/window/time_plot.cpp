@@ -85,7 +85,7 @@ void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing
     const std::vector<Series> all = seriesOf(simulation, drawing);
     drawPlot(all);
     if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("pass");
+    ImGui::TableSetupColumn("stage");
     ImGui::TableSetupColumn("calls");
     ImGui::TableSetupColumn("ms a frame");
     ImGui::TableHeadersRow();

@@ -354,6 +354,32 @@ TEST_CASE("explain names every pass of a frame, how often it runs, and what it r
     CHECK(timesOf("contact response", "contact store", "impulses") == 0);
 }
 
+TEST_CASE("the stages of run --timings are those of explain --passes", "[cli]") {
+    const Scratch scratch;
+    const auto stagesOf = [](const std::vector<JsonValue>& rows) {
+        std::set<std::string> out;
+        for (const JsonValue& row : rows)
+            out.insert(member(row, "stage").text);
+        return out;
+    };
+    for (const char* scene : {"tree/leaves", "fire/fire", "reef/school", "jar/sweets"}) {
+        for (const char* path : {"fused", "fragments"}) {
+            INFO(scene << ", " << path);
+            const std::string file = sourceFile(concat("models/", scene, ".scene.json"));
+            const Outcome passes = runShoal({"explain", file, "--passes", "--json", "--path", path});
+            REQUIRE(passes.code == 0);
+            const Outcome timed =
+                runShoal({"run", file, "--headless", "--frames", "2", "--size", "64x36", "--timings",
+                          "--json", "--capture", scratch.path("pictures"), "--path", path});
+            INFO(timed.err);
+            REQUIRE(timed.code == 0);
+            const std::set<std::string> stages = stagesOf(member(timed.json(), "stages").items);
+            CHECK(stages.size() > 3);
+            CHECK(stages == stagesOf(member(member(passes.json(), "frame"), "passes").items));
+        }
+    }
+}
+
 TEST_CASE("explain takes the same overrides as run", "[cli]") {
     const JsonValue report = runShoal({"explain", squaresScene(), "--json", "--count", "2000", "--substeps",
                                        "7", "--dt", "0.02", "--solver", "euler"})

@@ -313,8 +313,8 @@ TEST_CASE("each pass of a path is timed", "[cli]") {
     for (const auto& [path, all] : expected) {
         const JsonValue timed = report({"--timings", "--path", path});
         std::set<std::string> passes;
-        for (const JsonValue& pass : member(timed, "passes").items) {
-            passes.insert(member(pass, "pass").text);
+        for (const JsonValue& pass : member(timed, "stages").items) {
+            passes.insert(member(pass, "stage").text);
             CHECK(member(pass, "callsPerFrame").number >= 1);
             CHECK(member(pass, "minSeconds").number >= 0);
             CHECK(member(pass, "medianSeconds").number >= member(pass, "minSeconds").number);
