@@ -2,7 +2,7 @@
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 #include "contact/flags.glsl"
-#pragma reads sorted places motions sphereMotions cells
+#pragma reads sorted places motions sphereMotions cells marks
 
 uniform int count;     // spheres
 uniform int keyMask;   // of the table of cells
@@ -48,6 +48,12 @@ float radiusAt(int slot)
 bool rested(int slot)
 {
     return hasFlag(cellsAt(slot).w);
+}
+
+// Whether it still does: nothing has woken it in this step.
+bool rests(int slot)
+{
+    return RESTS && rested(slot) && !marksWoken(marksAt(slot));
 }
 
 // How many of so many contacts a list holds, LIST at most.

@@ -37,7 +37,7 @@ TEST_CASE("a path that computes wrongly is told of, kept by driver and shaders, 
     test::Scratch scratch;
     const std::string usual = testContext().shaders();
     std::filesystem::copy(usual, scratch.path("shaders"), std::filesystem::copy_options::recursive);
-    const std::string file = scratch.path("shaders/contact/response/prepare_entries.pass.glsl");
+    const std::string file = scratch.path("shaders/contact/response/prepare.pass.glsl");
     std::string text = readFile(file);
     const std::string kept = "putNextImpulses(slot, e, firstPart(known));";
     REQUIRE(text.find(kept) != std::string::npos);

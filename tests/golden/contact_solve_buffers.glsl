@@ -135,7 +135,13 @@ uint cellKey(ivec3 cell, uint mask)
     h = h ^ (h >> 15u);
     return (h + uint(inBlock.x + 8 * inBlock.y + 64 * inBlock.z)) & mask;
 }
+uint staggeredKey(ivec3 own, vec3 local, float cell, int keyMask)
+{
+    vec3 offset = local - vec3(own & (localCells - 1)) * cell;
+    return cellKey(own + ivec3(step(vec3(0.5 * cell), offset)), uint(keyMask));
+}
 #define motionsAt(i) uvec4(0)
+#define marksAt(i) uint(0)
 uniform usamplerBuffer sorted;
 uvec2 sortedAt(int i)
 {
@@ -191,14 +197,13 @@ bool rested(int slot)
 {
     return hasFlag(cellsAt(slot).w);
 }
+bool rests(int slot)
+{
+    return RESTS && rested(slot) && !marksWoken(marksAt(slot));
+}
 int listedIn(uint counted)
 {
     return min(int(counted & CONTACTS), LIST);
-}
-#define marksAt(i) uint(0)
-bool rests(int slot)
-{
-    return RESTS && hasFlag(cellsAt(slot).w) && !marksWoken(marksAt(slot));
 }
 const int NO_PART = 0;
 const int IMPACT = 1;

@@ -82,9 +82,8 @@ void Validator::addContact(const std::string& pass, const ContactFacts& facts, c
                            Defines defines) {
     arrays = "contact";
     holds = facts.names();
-    for (const auto& files : {facts.files(), group.files()})
-        for (const auto& [name, text] : files)
-            generated[name] = text;
+    for (const auto& [name, text] : group.files())
+        generated[name] = text;
     for (const Defines& more : {facts.constants(), group.constants()})
         defines.insert(defines.end(), more.begin(), more.end());
     defines.insert(defines.end(), {"LIST 24", "NEIGHBORS 4", "AHEAD 4", concat("NEAR ", ContactPlan::near),

@@ -207,39 +207,42 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
     const auto add = [&](const std::string& pass, const Facts& facts, const GroupFacts& group = {},
                          Defines more = {}) {
         more.insert(more.end(), {"BLOCK 16", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 12", "VERTICES 4",
-                                 "SPHERES 6", "HISTORY", "NO_HISTORY 1e30", "LANES 256", "CELL_TILE 1024",
-                                 "LINE_WORDS 32", "CONTACT_RADIUS 0.1", "CONTACT_GROWTH vec2(1.0, 2.0)"});
+                                 "SPHERES 6", "HISTORY", "NO_HISTORY 1e30", "LANES 256", "LINE_WORDS 32",
+                                 "CONTACT_RADIUS 0.1", "CONTACT_GROWTH vec2(1.0, 2.0)"});
+        if (facts.counted) more.emplace_back("CELL_TILE 1024");
         validator.addContact(pass, facts, group, more);
     };
     const Facts remembers = {.remembers = true};
     forFacts(remembers, {&Facts::counted, &Facts::rests, &Facts::staggers}, [&](const Facts& facts) {
-        add(facts.counted ? "grid/order_counted" : "grid/order_sorted", facts);
+        add("grid/order", facts);
         add("grid/spheres", facts);
     });
-    for (const char* pass : {"grid/starts", "grid/members"})
-        add(pass, {.counted = true});
+    for (const Defines& more : combinations({"MEMBERS"}))
+        add("grid/starts", {.counted = true}, {}, more);
     forFacts(Facts(), {&Facts::staggers, &Facts::sweeps}, [&](const Facts& facts) {
-        for (const bool second : {false, true})
-            add("search/neighbors", facts, {}, {gpu::constant("SECOND_GRID", second)});
+        add("search/neighbors", facts);
+        if (facts.staggers) add("search/neighbors", facts, {}, {"SECOND_GRID"});
     });
     forFacts(remembers, {&Facts::self, &Facts::sweeps, &Facts::colliders}, [&](Facts facts) {
         add("search/find", facts);
         facts.rests = true;
-        for (const char* pass :
-             {"search/find_awake", "search/find_marked", "rest/awake", "rest/wake", "rest/load_change"})
+        for (const char* pass : {"search/find", "rest/awake", "rest/wake", "rest/load_change"})
             add(pass, facts);
+        add("search/find", facts, {}, {"MARKED"});
         for (const bool release : {false, true})
             add("rest/rest", facts, {.release = release});
     });
     forFacts(remembers, {&Facts::rests, &Facts::colliders, &Facts::spreads, &Facts::rigid},
              [&](const Facts& facts) {
-                 for (const char* pass : {"prepare", "solve", "solve_first", "store"})
+                 for (const char* pass : {"prepare", "solve", "store"})
                      add(concat("response/", pass), facts);
+                 add("response/solve", facts, {}, {"FIRST"});
              });
     const Facts spreads = {.remembers = true, .spreads = true, .colliders = true, .rigid = true};
     forFacts(GroupFacts(), {&GroupFacts::triangles, &GroupFacts::rigid}, [&](GroupFacts group) {
-        for (const char* pass : {"effective_sum", "velocities", "apply"})
+        for (const char* pass : {"spread", "apply"})
             add(concat("response/", pass), spreads, group);
+        add("response/spread", spreads, group, {"VELOCITIES"});
         for (const Defines& life : {Defines{}, Defines{"LIFE"}})
             add("grid/spheres", spreads, group, life);
         group.collides = group.severalColliders = true;

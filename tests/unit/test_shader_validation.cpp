@@ -84,9 +84,7 @@ TEST_CASE("the passes of contact in fragments are sound in desktop and in embedd
     const auto add = [&](const std::string& pass, Facts facts, const GroupFacts& group = {},
                          const Defines& more = {}) {
         facts.textures = true;
-        Defines defines = {gpu::constant("SECOND_GRID", false)};
-        defines.insert(defines.end(), more.begin(), more.end());
-        validator.addContact(pass, facts, group, defines);
+        validator.addContact(pass, facts, group, more);
     };
     for (const char* pass :
          {"grid/keys", "grid/order", "grid/slots", "search/find", "search/neighbors", "response/nearest"})
@@ -99,12 +97,14 @@ TEST_CASE("the passes of contact in fragments are sound in desktop and in embedd
         for (const char* pass : {"search/find", "search/neighbors"})
             add(pass, facts);
         facts.staggers = true;
-        add("search/neighbors_in_both", facts);
+        add("search/neighbors", facts, {}, {"SECOND_GRID"});
     });
     forFacts(remembers, {&Facts::colliders, &Facts::spreads, &Facts::rigid}, [&](const Facts& facts) {
-        for (const char* pass :
-             {"prepare_entries", "prepare", "constrain", "solve_entries", "solve", "store"})
+        for (const char* pass : {"prepare", "solve", "store"})
             add(concat("response/", pass), facts);
+        for (const char* pass : {"prepare", "solve"})
+            add(concat("response/", pass), facts, {}, {"ENTRIES"});
+        add("response/solve", facts, {}, {"FIRST"});
     });
     const Defines sizes = {
         "LAYERED",    "STATE_WIDTH 1024", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6",
@@ -114,10 +114,15 @@ TEST_CASE("the passes of contact in fragments are sound in desktop and in embedd
         set.insert(set.end(), sizes.begin(), sizes.end());
         forFacts(GroupFacts{.severalColliders = true}, {&GroupFacts::triangles, &GroupFacts::rigid},
                  [&](const GroupFacts& group) {
-                     for (const char* pass : {"effective_sum", "velocities", "gains_of_many", "gains"})
-                         add(concat("response/", pass), spreads, group, set);
-                     for (const char* pass : {"grid/colliders", "grid/spheres"})
+                     for (const char* pass : {"response/spread", "response/gains", "grid/spheres"})
                          add(pass, spreads, group, set);
+                     const auto addWith = [&](const std::string& pass, const char* define) {
+                         Defines more = set;
+                         more.emplace_back(define);
+                         add(pass, spreads, group, more);
+                     };
+                     addWith("response/spread", "VELOCITIES");
+                     addWith("grid/spheres", "COLLIDES");
                  });
     }
     CHECK(validator.count() > 90);

@@ -3,7 +3,6 @@
 #include "physics/cells.glsl"
 #pragma reads sphereCells spherePlaces
 #pragma writes keys
-#include "contact/grid/staggered.glsl"
 
 uniform int keyMask;
 uniform float cell;

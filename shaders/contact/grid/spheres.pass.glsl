@@ -1,11 +1,45 @@
 // The spheres of one group, from the state, in the order of their numbers. With buffers a lane writes the key of its cell as well, and the
-// colliders near it. C++ chooses the files: how the state has a sphere, how its key is kept, and how colliders are looked for.
+// colliders near it; in fragments a pass of its own writes these (COLLIDES), because a pass writes eight texels at most. C++ chooses the file
+// that knows how the state has a sphere.
 #include "generated/sphere.glsl"
 #include "contact/rest/states.glsl"
+#if defined(COLLIDES) && defined(TEXTURES)
+#include "contact/grid/near_colliders.glsl"
+
+void main()
+{
+    int lane = ownLane();
+    int molecule = lane / SPHERES;
+    int k = lane - molecule * SPHERES;
+    putNearColliders(firstNumber + lane, sphereOfState(molecule, k), k);
+}
+#else
 #pragma writes spherePlaces sphereMotions sphereCells bodies
 #pragma updates loads when buffers
-#include "generated/key.glsl"
-#include "generated/sphere_colliders.glsl"
+#ifdef CELL_TILE
+#include "contact/grid/cell_counts.glsl"
+#pragma writes arrivals
+
+// Which cell a sphere lies in, and how many spheres of the cell have come before it.
+void putKey(int sphere, ivec3 cell)
+{
+    if (isBehindLast()) return;
+    uint key = cellKey(cell, uint(keys - 1));
+    putArrivals(sphere, uvec2(key, atomicAdd(cellCounts[key], 1u)));
+    atomicAdd(cellCounts[placeOfTile(int(key) / CELL_TILE)], 1u);
+}
+#else
+#pragma writes sorted when buffers
+
+uniform int keys;  // of the table of cells
+
+// The key of the cell of a sphere, to be sorted; in fragments contact/grid/keys.pass.glsl makes it.
+void putKey(int sphere, ivec3 cell)
+{
+    putSorted(sphere, uvec2(cellKey(cell, uint(keys - 1)), uint(sphere)));
+}
+#endif
+#include "contact/grid/near_colliders.glsl"
 
 uniform int label;       // of the group's first molecule
 uniform bool wakes;      // all molecules of the group
@@ -34,3 +68,4 @@ void main()
     putSphereMotions(sphere, uvec4(floatBitsToUint(own.velocity), withFlag(own.weight, own.fresh)));
     putSphereCells(sphere, uvec4(uvec3(place.cell), withFlag(own.radius, rests)));
 }
+#endif

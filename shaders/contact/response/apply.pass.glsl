@@ -3,7 +3,7 @@
 //   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
 const bool applies = true;
 #include "contact/response/changes.glsl"
-#include "contact/rest/resting.glsl"
+#include "contact/slots.glsl"
 #include "contact/search/responding.glsl"
 #pragma reads sorted
 #pragma writes loads
@@ -38,17 +38,21 @@ void add(int molecule, int vertex, Total change)
 #endif
 }
 
-void applyToVertex(int lane)
+#ifdef MANY
+void main()
 {
+    if (isBehindLast()) return;
+    int lane = ownLane();
     int molecule = lane / VERTICES;
     int vertex = lane - molecule * VERTICES;
     if (rests(slotOf(moleculeSphere(molecule)))) return;
     Total change = changeOf(molecule, vertex);
     if (change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0)) add(molecule, vertex, change);
 }
-
-void applyToSlot(int slot)
+#else
+void main()
 {
+    int slot = ownSlot(0);
     int lane = slot < 0 ? -1 : int(sortedAt(slot).y) - firstSphere;
     if (lane < 0 || lane >= partSpheres) return;
     int molecule = lane / SPHERES;
@@ -58,12 +62,4 @@ void applyToSlot(int slot)
         weightOf(shapeOf(vertex), texelFetch(oldRecords, molecule).w < 0.0));
     add(molecule, vertex, change);
 }
-
-void main()
-{
-    if (!MANY) {
-        applyToSlot(ownSlot(0));
-    } else if (!isBehindLast()) {
-        applyToVertex(ownLane());
-    }
-}
+#endif

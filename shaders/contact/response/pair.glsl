@@ -9,7 +9,6 @@
 // to the bit, from the same numbers: only gathers.
 #include "contact/search/responding.glsl"
 #include "contact/slots.glsl"
-#include "contact/rest/resting.glsl"
 #include "contact/response/impulse.glsl"
 #include "contact/response/body.glsl"
 #include "physics/pair.glsl"

@@ -1,7 +1,8 @@
-// The list of a slot's contacts, while it is made. C++ chooses how it is kept, with buffers or in fragments (contact/search/buffer_list.glsl,
-// contact/search/texture_list.glsl): beginList(), foundBefore(), take(), isListed() and keep(). Needs touchResting(), which an awake sphere calls for what it
-// touches.
+// Which spheres a slot may touch, and those that it does.
 #include "state/lanes.glsl"
+#ifdef MARKS
+#include "contact/rest/marks.glsl"
+#endif
 #include "contact/slots.glsl"
 #include "contact/response/memory.glsl"
 #include "contact/response/body.glsl"
@@ -65,9 +66,93 @@ bool haveMet(vec3 d, float reach, int slot)
     return pairContact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed, 1.0).impact;
 }
 
-#include "generated/list.glsl"
+// The list of its contacts, while it is made: fragments write it at their end.
+#ifdef TEXTURES
+#pragma writes counts dropped lists
+#pragma reads oldDropped
 
-void touchResting(int slot, vec3 d, float reach);
+uvec4 entries[LIST / 4];
+
+void beginList()
+{
+    for (int i = 0; i < LIST / 4; ++i) entries[i] = uvec4(0u);
+}
+
+int foundBefore(int slot)
+{
+    return 0;  // fragments search all grids at once
+}
+
+void take(int slot)
+{
+    entries[found >> 2][found & 3] = uint(slot);
+}
+
+bool isListed(int slot)
+{
+    bool known = false;
+    for (int e = 0; e < min(found, LIST); ++e) known = known || int(entries[e >> 2][e & 3]) == slot;
+    return known;
+}
+
+void keep(int slot, uint counted)
+{
+    putCounts(slot, counted);
+    putDropped(slot, oldDroppedAt(slot) + uint(max(found - LIST, 0)));
+    newLists = entries;
+}
+#else
+#include "contact/search/respond.glsl"
+#pragma updates counts lists
+
+layout(std430) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
+
+uniform bool last;  // no other search adds to what this one lists
+
+void beginList()
+{
+}
+
+// Of another search.
+int foundBefore(int slot)
+{
+    return int(countsAt(slot) & CONTACTS);
+}
+
+void take(int slot)
+{
+    putLists(searching, found, uint(slot));
+}
+
+bool isListed(int slot)
+{
+    bool known = false;
+    for (int e = 0; e < min(found, LIST); ++e) known = known || int(listsAt(searching, e)) == slot;
+    return known;
+}
+
+void keep(int slot, uint counted)
+{
+    putCounts(slot, counted);
+    bool takes = last && counted > 0u;
+    while (takes) {
+        addResponding(slot);
+        if (found > LIST) atomicAdd(dropped, uint(found - LIST));
+        takes = false;
+    }
+}
+#endif
+
+// An awake sphere marks the resting ones that it touches.
+void touchResting(int slot, vec3 d, float reach)
+{
+#ifdef MARKS
+    if (rested(searching) || !rested(slot)) return;
+    bool struck = haveMet(d, reach, slot);
+    mark(slot, struck ? TOUCHED | STRUCK : TOUCHED);
+    if (struck) struckX = uint(count + 63) / 64u;
+#endif
+}
 
 // Takes the sphere into the list if it touches.
 void meet(int slot)

@@ -118,22 +118,22 @@ gpu::ProgramOptions ContactData::options(const std::string& file, const std::str
     define(counted, concat("LINE_WORDS ", lineWords));
     for (const std::string& fact : constants())
         out.defines.push_back(fact);
-    out.generated = files();
     return out;
 }
 
-Program ContactData::stage(const std::string& file, const std::vector<std::string>& defines) const {
-    gpu::ProgramOptions made = options(file, file.substr(file.rfind('/') + 1));
+Program ContactData::stage(const std::string& file, const std::string& name,
+                           const std::vector<std::string>& defines) const {
+    gpu::ProgramOptions made = options(file, name);
     made.defines.push_back(concat("NEIGHBORS ", contact->settings.neighbors));
     made.defines.push_back(concat("NEAR ", ContactPlan::near));
     made.defines.insert(made.defines.end(), defines.begin(), defines.end());
     return Program(*context, made);
 }
 
-Program ContactData::groupStage(const ContactGroup& group, const std::string& file) const {
+Program ContactData::groupStage(const ContactGroup& group, const std::string& file, const std::string& name,
+                                const std::vector<std::string>& defines) const {
     const GroupPlan& groupPlan = planOf(group);
-    gpu::ProgramOptions made =
-        options(file, concat(file.substr(file.rfind('/') + 1), " of ", groupPlan.name));
+    gpu::ProgramOptions made = options(file, concat(name, " of ", groupPlan.name));
     const ContactGroupFacts facts = {.rigid = isRigid(group),
                                      .triangles = group.triangles,
                                      .pins = groupPlan.needs.pins,
@@ -142,11 +142,11 @@ Program ContactData::groupStage(const ContactGroup& group, const std::string& fi
                                      .severalColliders = plan->jointContact,
                                      .vertexTextures = textures && !fused};
     for (const std::vector<std::string>& more :
-         {state->defines(group.group), group.defines(), facts.constants()})
+         {state->defines(group.group), group.defines(), facts.constants(), defines})
         made.defines.insert(made.defines.end(), more.begin(), more.end());
     made.defines.push_back(concat("VERTICES ", groupPlan.vertexCount));
     made.defines.push_back(concat("SPHERES ", group.spheresOf));
-    made.generated.merge(facts.files());
+    made.generated = facts.files();
     made.generated["generated/colliders.glsl"] = plan->colliders.source;
     return Program(*context, made);
 }

@@ -43,8 +43,10 @@ class ContactData : public ContactFacts {
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
     // A stage of all spheres, FILE.pass.glsl below the shaders' root, and of one group.
-    gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {}) const;
-    gpu::Program groupStage(const ContactGroup& group, const std::string& file) const;
+    gpu::Program stage(const std::string& file, const std::string& name,
+                       const std::vector<std::string>& defines = {}) const;
+    gpu::Program groupStage(const ContactGroup& group, const std::string& file, const std::string& name,
+                            const std::vector<std::string>& defines = {}) const;
     const gpu::Program& use(const gpu::Program& program) const { return arrays.use(program); }
     // With what all stages of the response are given.
     const gpu::Program& withResponse(const gpu::Program& program, const ContactStep& times) const;

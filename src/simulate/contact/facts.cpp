@@ -6,15 +6,6 @@ namespace shoal {
 
 using gpu::constant;
 
-namespace {
-
-// A file in memory that includes one of several.
-std::pair<std::string, std::string> chosen(const char* name, const char* file) {
-    return {concat("generated/", name, ".glsl"), concat("#include \"contact/", file, ".glsl\"\n")};
-}
-
-}  // namespace
-
 ContactFacts contactFacts(const Plan& plan, bool textures, bool fused, bool counts) {
     ContactFacts out;
     out.textures = textures;
@@ -46,26 +37,26 @@ std::set<std::string> ContactFacts::names() const {
 }
 
 std::vector<std::string> ContactFacts::constants() const {
-    return {constant("REMEMBERS", remembers), constant("RESTS", rests),        constant("STAGGERS", staggers),
-            constant("SWEEPS", sweeps),       constant("SELF", self),          constant("SPREADS", spreads),
-            constant("BODIES", rigid),        constant("COLLIDERS", colliders)};
-}
-
-std::map<std::string, std::string> ContactFacts::files() const {
-    return {chosen("key", counted ? "grid/key_counted" : "grid/key_sorted"),
-            chosen("list", textures ? "search/texture_list" : "search/buffer_list"),
-            chosen("mark_groups", rests ? "rest/mark_groups" : "rest/no_mark_groups")};
+    std::vector<std::string> out = {constant("REMEMBERS", remembers), constant("RESTS", rests),
+                                    constant("STAGGERS", staggers),   constant("SWEEPS", sweeps),
+                                    constant("SELF", self),           constant("SPREADS", spreads),
+                                    constant("BODIES", rigid),        constant("COLLIDERS", colliders)};
+    if (rests) out.emplace_back("MARKS");
+    return out;
 }
 
 std::vector<std::string> ContactGroupFacts::constants() const {
-    return {constant("RIGID", rigid), constant("TRIANGLES", triangles), constant("MANY", triangles || rigid),
-            constant("PINS", pins), constant("RELEASE", release)};
+    std::vector<std::string> out = {constant("RIGID", rigid), constant("TRIANGLES", triangles),
+                                    constant("PINS", pins), constant("RELEASE", release)};
+    if (triangles || rigid) out.emplace_back("MANY");
+    if (collides) out.emplace_back("COLLIDES");
+    if (severalColliders) out.emplace_back("SEVERAL_COLLIDERS");
+    return out;
 }
 
 std::map<std::string, std::string> ContactGroupFacts::files() const {
-    return {chosen("sphere", vertexTextures ? "grid/textures_sphere" : "grid/state_sphere"),
-            chosen("sphere_colliders", collides ? "grid/near_colliders" : "grid/no_colliders"),
-            chosen("search_colliders", severalColliders ? "grid/several_colliders" : "grid/one_collider")};
+    const char* sphere = vertexTextures ? "textures_sphere" : "state_sphere";
+    return {{"generated/sphere.glsl", concat("#include \"contact/grid/", sphere, ".glsl\"\n")}};
 }
 
 }  // namespace shoal

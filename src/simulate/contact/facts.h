@@ -1,5 +1,5 @@
 // What shaders of contact are told of a scene: which arrays it needs (shaders/contact/arrays.txt), constants
-// that they ask for, and which of several files does something in its way.
+// and switches that they ask for, and which of several files does something in its way.
 #pragma once
 
 #include <map>
@@ -22,8 +22,7 @@ struct ContactFacts {
     bool colliders = false, rigid = false;
 
     std::set<std::string> names() const;         // of those that hold
-    std::vector<std::string> constants() const;  // defines, true or false
-    std::map<std::string, std::string> files() const;
+    std::vector<std::string> constants() const;  // defines
 };
 
 // The facts of one group of them.

@@ -2,27 +2,25 @@
 
 #include <algorithm>
 
-#include "gpu/shader_source.h"
-
 namespace shoal {
 
 using gpu::Program;
 
 ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
     const bool isExact = data.contact->settings.search == ContactSearch::exact;
-    const std::vector<std::string> ahead = {concat("AHEAD ", data.counted ? 4 : 1)};
+    const std::string ahead = concat("AHEAD ", data.counted ? 4 : 1);
     if (!isExact) {
-        const bool inBoth = data.staggers && data.textures;
-        find_ = data.stage(inBoth ? "contact/search/neighbors_in_both" : "contact/search/neighbors",
-                           {gpu::constant("SECOND_GRID", false)});
+        const std::vector<std::string> second = {"SECOND_GRID"}, none;
+        find_ = data.stage("contact/search/neighbors", "neighbors",
+                           data.staggers && data.textures ? second : none);
         if (data.staggers && !data.textures)
-            findStaggered_ = data.stage("contact/search/neighbors", {gpu::constant("SECOND_GRID", true)});
+            findStaggered_ = data.stage("contact/search/neighbors", "neighbors", second);
     }
-    if (isExact) find_ = data.stage(data.rests ? "contact/search/find_awake" : "contact/search/find", ahead);
+    if (isExact) find_ = data.stage("contact/search/find", data.rests ? "find_awake" : "find", {ahead});
     if (!data.rests) return;
-    findResting_ = data.stage("contact/search/find_marked", ahead);
-    awake_ = data.stage("contact/rest/awake");
-    wake_ = data.stage("contact/rest/wake");
+    findResting_ = data.stage("contact/search/find", "find_marked", {ahead, "MARKED"});
+    awake_ = data.stage("contact/rest/awake", "awake");
+    wake_ = data.stage("contact/rest/wake", "wake");
 }
 
 void ContactFinder::find(const Program& program, const ContactStep& times) {

@@ -8,26 +8,26 @@ using gpu::Program;
 
 ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
     if (data.remembers) {
-        prepare_ = data.stage("contact/response/prepare");
-        solve_ = data.stage("contact/response/solve");
-        store_ = data.stage("contact/response/store");
+        prepare_ = data.stage("contact/response/prepare", "prepare");
+        solve_ = data.stage("contact/response/solve", "solve");
+        store_ = data.stage("contact/response/store", "store");
         if (data.textures) {
-            prepareEntries_ = data.stage("contact/response/prepare_entries");
-            constrain_ = data.stage("contact/response/constrain");
-            solveEntries_ = data.stage("contact/response/solve_entries");
+            prepareEntries_ = data.stage("contact/response/prepare", "prepare_entries", {"ENTRIES"});
+            constrain_ = data.stage("contact/response/solve", "constrain", {"FIRST"});
+            solveEntries_ = data.stage("contact/response/solve", "solve_entries", {"ENTRIES"});
         } else {
-            solveFirst_ = data.stage("contact/response/solve_first");
+            solveFirst_ = data.stage("contact/response/solve", "solve_first", {"FIRST"});
         }
     } else {
-        nearest_ = data.stage("contact/response/nearest");
+        nearest_ = data.stage("contact/response/nearest", "nearest");
     }
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
-        const char* gains = data.manyAct(group) ? "contact/response/gains_of_many" : "contact/response/gains";
-        made.apply = data.groupStage(group, data.textures ? gains : "contact/response/apply");
+        const std::string apply = data.textures ? "gains" : "apply";
+        made.apply = data.groupStage(group, concat("contact/response/", apply), apply);
         if (!data.spreads) continue;
-        made.effectiveSum = data.groupStage(group, "contact/response/effective_sum");
-        made.velocities = data.groupStage(group, "contact/response/velocities");
+        made.effectiveSum = data.groupStage(group, "contact/response/spread", "effective_sum");
+        made.velocities = data.groupStage(group, "contact/response/spread", "velocities", {"VELOCITIES"});
     }
 }
 

@@ -1,10 +1,54 @@
-// Where one sphere's contacts move others: the effective count (physics/pair.glsl) of the contacts that act on the same vertices as a
-// sphere's own, or on the same rigid body (RIGID). With buffers a lane has a sphere of one group, or with RIGID a molecule; in fragments a texel
-// has the slot of one.
-#include "contact/group_sphere.glsl"
-#include "contact/flags.glsl"
+// Where contacts of one sphere move others of its molecule. With VELOCITIES how the totals so far move the spheres of one group, else the
+// effective count (physics/pair.glsl) of the contacts that act on the same vertices as a sphere's own, or on the same rigid body (RIGID).
+// With buffers a lane has a sphere or, with RIGID, a molecule; in fragments a texel has a slot, and those of other groups' spheres are left as
+// they are.
+#include "contact/slots.glsl"
+#include "contact/grid/shape.glsl"
+
+const bool oneForMolecule = RIGID && !inTextures;
+
+uniform int groupSpheres;
+
+// Returns which sphere of the group, or which molecule, from 0.
+int ownLaneOfGroup()
+{
+    if (!inTextures) return ownLane();
+    int lane = sphereOf(ownNumber()) - firstSphere;
+    if (ownNumber() >= count || lane < 0 || lane >= groupSpheres) discardTexel();
+    return lane;
+}
+
+#ifdef VELOCITIES
+const bool applies = false;
+#include "contact/response/changes.glsl"
+#pragma writes velocities
+
+void put(int sphere, Total change)
+{
+    int slot = inTextures ? ownNumber() : slotOf(sphere);
+    putVelocities(slot, 0, vec4(velocityBefore(sphere) + change.impulse, 0.0));
+    putVelocities(slot, 1, vec4(change.shift, 0.0));
+}
+
+void main()
+{
+    int lane = ownLaneOfGroup();
+    int molecule = oneForMolecule ? lane : lane / SPHERES;
+    int own = oneForMolecule ? 0 : lane - molecule * SPHERES;
+    int first = moleculeSphere(molecule);
+    bool moves = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
+    while (moves) {
+        if (oneForMolecule) {
+            BodyTotal body = totalOfBody(molecule);
+            for (int k = 0; k < SPHERES; ++k) put(first + k, changeIn(body, molecule, k));
+        } else {
+            put(first + own, changeOf(molecule, own));
+        }
+        moves = false;
+    }
+}
+#else
 #include "contact/response/body.glsl"
-#include "contact/rest/resting.glsl"
 #pragma reads counts contactSums
 #pragma writes effectiveCounts
 
@@ -65,7 +109,7 @@ void main()
     int lane = ownLaneOfGroup();
     int own = oneForMolecule ? 0 : lane % SPHERES;
     int first = firstSphere + (oneForMolecule ? lane * SPHERES : lane - own);
-    bool isLeft = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/search.glsl)
+    bool isLeft = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
     while (isLeft) {
         uint sum = floatBitsToUint(effectiveSum(first, own));
         int end = oneForMolecule ? SPHERES : own + 1;
@@ -73,3 +117,4 @@ void main()
         isLeft = false;
     }
 }
+#endif

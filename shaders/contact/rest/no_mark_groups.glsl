@@ -1,4 +1,0 @@
-// Nothing is marked where no molecule may rest (contact/rest/mark_groups.glsl).
-void noneMarked()
-{
-}
