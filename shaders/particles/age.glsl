@@ -1,7 +1,7 @@
 // Ages a molecule by a frame. It dies of age, outside a box (where C++ sets CONFINED to true), or some time after it has
 // touched a collider (TOUCH_COUNTS): its place becomes free, and with DEATHS its death is recorded: one bit a
 // place, so that neighbours that die together leave the same bits in whatever order. In fragments the state itself tells
-// (births/bits.pass.glsl). A place that is free stays so. Needs fused/state.glsl.
+// (births/sums.pass.glsl). A place that is free stays so. Needs fused/state.glsl.
 
 uniform vec4 livesAbove[2], livesBelow[2];  // m, corners of the box, each a point of the anchors' lattice and the rest
 

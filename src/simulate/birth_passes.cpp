@@ -143,7 +143,8 @@ void BirthPasses::makePrograms(gpu::Context& context) {
     list_ = Program(context, arrays_.passOptions("births/list", "list of deaths"));
     for (const auto& living : groups_) {
         if (!living) continue;
-        gpu::ProgramOptions bits = arrays_.passOptions("births/bits", "bits of places");
+        gpu::ProgramOptions bits = arrays_.passOptions("births/sums", "bits of places");
+        bits.defines.emplace_back("BITS");
         if (textures)
             for (const std::string& define : living->plan->layout().defines(true))
                 bits.defines.push_back(define);

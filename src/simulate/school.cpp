@@ -51,7 +51,8 @@ TextureSchool::TextureSchool(gpu::Context& context, const Plan& plan, const Tabl
             NetworkSort::Ties::byIndex),
       state_(&state) {
     starts_ = Program(context, optionsOf("sort/starts", "school starts", nullptr));
-    gpu::ProgramOptions steered = optionsOf("school/steered", "school steering", nullptr);
+    gpu::ProgramOptions steered = optionsOf("school/steer", "school steering", nullptr);
+    steered.defines.emplace_back("MOLECULES");
     steered.defines.push_back(concat("STATE_WIDTH ", stateWidth));
     steered_ = Program(context, steered);
 }

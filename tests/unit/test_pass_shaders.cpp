@@ -188,12 +188,15 @@ TEST_CASE("the shaders of births are sound GLSL, of WebGL 2 as well", "[shaders]
         validator.addKernel(plan, {.work = KernelOptions::Work::births});
         validator.addFragments(plan, {});
     }
-    for (const char* file : {"bits", "sums", "control", "list"}) {
-        validator.add(concat("births/", file, ".pass.glsl"), {}, gpu::header430());
-        validator.addBoth(
-            concat("births/", file, ".pass.glsl"),
-            {"LAYERED", "STATE_WIDTH 1024", "ROW_BITS 10", "POSITION_ELEMENTS 1", "STATE_ELEMENTS 2"});
-    }
+    const auto addPass = [&validator](const std::string& file, Defines defines) {
+        validator.add(concat("births/", file, ".pass.glsl"), defines, gpu::header430());
+        defines.insert(defines.end(), {"LAYERED", "STATE_WIDTH 1024", "ROW_BITS 10", "POSITION_ELEMENTS 1",
+                                       "STATE_ELEMENTS 2"});
+        validator.addBoth(concat("births/", file, ".pass.glsl"), defines);
+    };
+    for (const char* file : {"sums", "control", "list"})
+        addPass(file, {});
+    addPass("sums", {"BITS"});
     CHECK(validator.count() == 34);
     validator.check();
 }
@@ -281,8 +284,8 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     };
     addBothForms("keys", {});
     addBothForms("order", {});
-    validator.addBoth("school/steered.pass.glsl",
-                      {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "ROW_BITS 4", "STATE_WIDTH 1024"});
+    validator.addBoth("school/steer.pass.glsl", {"MOLECULES", "BODY_ELEMENTS 4", "STEERING_ELEMENTS 3",
+                                                 "ROW_BITS 4", "STATE_WIDTH 1024"});
     for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
                                Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
         Defines sizes = {"POSITION_ELEMENTS 2"};

@@ -1,10 +1,24 @@
-// The keys that fragments sort, two spheres a texel.
+// The keys that fragments sort, two spheres a texel; once they are sorted, with SLOTS, the place of each sphere in their order.
 #include "state/lanes.glsl"
 #include "physics/cells.glsl"
+
+uniform int keyMask;
+
+#ifdef SLOTS
+#include "sort/pairs.glsl"
+#pragma reads sorted sphereCells starts
+#pragma writes slots
+
+void main()
+{
+    int sphere = ownLane();
+    uint key = cellKey(ivec3(sphereCellsAt(sphere).xyz), uint(keyMask));
+    putSlots(sphere, uint(placeOfNumber(sorted, uint(sphere), int(startsAt(int(key))), numbers)));
+}
+#else
 #pragma reads sphereCells spherePlaces
 #pragma writes keys
 
-uniform int keyMask;
 uniform float cell;
 uniform bool isStaggered;  // of a second grid
 
@@ -22,3 +36,4 @@ void main()
     int first = 2 * ownNumber();
     newKeys = uvec4(pairOf(first), pairOf(first + 1));
 }
+#endif

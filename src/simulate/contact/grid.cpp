@@ -12,7 +12,7 @@ ContactGrid::ContactGrid(ContactData& data) : data_(&data) {
                                    2 << rowBits(data.contact->cells()), NetworkSort::Ties::byIndex);
         keys_ = data.stage("contact/grid/keys", "keys");
         starts_ = data.stage("sort/starts", "starts");
-        slots_ = data.stage("contact/grid/slots", "slots");
+        slots_ = data.stage("contact/grid/keys", "slots", {"SLOTS"});
     } else if (data.counted) {
         starts_ = data.stage("contact/grid/starts", "starts", {"LANES 256"});
         members_ = data.stage("contact/grid/starts", "members", {"MEMBERS"});
