@@ -1,8 +1,12 @@
 // Contact in fragments is that of compute shaders, with all that either form has: spheres on triangles,
 // within a molecule, and walls within the response.
+#include <algorithm>
+#include <functional>
+
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
 #include "gl/numerics.h"
+#include "gpu/frame_record.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
 
@@ -34,6 +38,16 @@ Scene heap(bool triangles, bool self) {
     scene.contact.steps = 2;
     setSteps(scene, 1.0 / 60, 8);
     return scene;
+}
+
+// With tetrahedra in place of its sheets, so stiff that they answer as rigid bodies.
+void makeStiff(Scene& scene) {
+    scene.solver.kind = SolverKind::bdf2Xpbd;
+    Molecule& molecule = scene.groups[0].molecule;
+    molecule = leaf(1e6, 0);
+    const glm::dvec3 corners[] = {{0, 0, 0}, {0.5, 0, 0}, {0.25, 0, 0.43}, {0.25, 0.4, 0.14}};
+    for (size_t i = 0; i < 4; ++i)
+        molecule.vertices[i].position = corners[i];
 }
 
 }  // namespace
@@ -121,4 +135,45 @@ TEST_CASE("a contact step takes as many dispatches when nothing touches as when 
         CHECK(dispatches[0] == dispatches[1]);
         if (asOnGpu) CHECK(dispatches[1] == 12);
     }
+}
+
+// Storage blocks of a compute shader, and textures of any: what the compiler kept of both.
+TEST_CASE("no pass of contact takes more storage blocks or textures than OpenGL promises",
+          "[molecule contact]") {
+    if (!canFuse()) return;
+    size_t mostBlocks = 0, mostTextures = 0;
+    for (const bool rests : {false, true}) {
+        for (const bool stiff : {false, true}) {
+            Scene scene = heap(true, true);
+            if (stiff) makeStiff(scene);
+            scene.contact.fastest = 20.0;
+            if (rests) scene.contact.rest = 0.01;
+            const Plan plan = compile(scene);
+            CHECK(plan.groups[0].rigid == stiff);
+            for (const auto& [path, asOnGpu] : {std::pair(Path::fused, false), std::pair(Path::fused, true),
+                                                std::pair(Path::fragments, false)}) {
+                if (rests && path == Path::fragments) continue;
+                Simulation simulation(testContext(), plan,
+                                      {.drawn = false, .path = path, .asOnGpu = asOnGpu});
+                const gpu::FrameRecord record;
+                simulation.frame();
+                CHECK(record.rows().size() > 10);
+                for (const gpu::PassRow& row : record.rows()) {
+                    CAPTURE(rests, stiff, asOnGpu, row.pass);
+                    const auto isWritten = [&row](const std::string& name) {
+                        return std::find(row.writes.begin(), row.writes.end(), name) != row.writes.end();
+                    };
+                    const auto textures =
+                        std::count_if(row.reads.begin(), row.reads.end(), std::not_fn(isWritten));
+                    CHECK(textures <= 16);
+                    mostTextures = std::max(mostTextures, size_t(textures));
+                    if (path == Path::fragments) continue;
+                    CHECK(row.writes.size() <= 8);
+                    mostBlocks = std::max(mostBlocks, row.writes.size());
+                }
+            }
+        }
+    }
+    CHECK(mostBlocks > 4);
+    CHECK(mostTextures > 8);
 }
