@@ -42,7 +42,8 @@ class ContactData : public ContactFacts {
     // Spheres that a context holds in buffers, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
-    // A stage of all spheres, FILE.pass.glsl below the shaders' root, and of one group.
+    // A stage of all spheres, and of one group: FILE.pass.glsl below the shaders' root, with the defines that
+    // say which stage of that file it is.
     gpu::Program stage(const std::string& file, const std::string& name,
                        const std::vector<std::string>& defines = {}) const;
     gpu::Program groupStage(const ContactGroup& group, const std::string& file, const std::string& name,
