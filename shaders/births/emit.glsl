@@ -20,7 +20,7 @@ float drawn(uint seed, uint counter)
     return uniformFrom(hashSeed(seed, counter));
 }
 
-// Uniform on the unit sphere: height and longitude are independent (Archimedes).
+// Returns a direction uniform on the unit sphere: height and longitude are independent (Archimedes).
 vec3 anyDirection(float u, float v)
 {
     float z = 1.0 - 2.0 * u;
@@ -29,7 +29,7 @@ vec3 anyDirection(float u, float v)
     return vec3(r * cos(angle), r * sin(angle), z);
 }
 
-// Two unit vectors that make a right-handed frame with the unit vector n [Duff 2017].
+// Sets two unit vectors that make a right-handed frame with the unit vector n [Duff 2017].
 void frameOf(vec3 n, out vec3 a, out vec3 b)
 {
     float s = n.z < 0.0 ? -1.0 : 1.0;
@@ -39,7 +39,7 @@ void frameOf(vec3 n, out vec3 a, out vec3 b)
     b = vec3(q, s + n.y * n.y * p, -n.y);
 }
 
-// Within a cone about the axis, each solid angle alike; cap = 1 - cos(half the opening).
+// Returns a direction uniform in solid angle within a cone about the axis; cap = 1 - cos(half the opening).
 vec3 coneDirection(vec3 axis, float cap, float u, float v)
 {
     float below = u * cap;  // 1 - cos, which keeps narrow cones exact
@@ -50,7 +50,8 @@ vec3 coneDirection(vec3 axis, float cap, float u, float v)
     return axis * (1.0 - below) + (a * cos(angle) + b * sin(angle)) * r;
 }
 
-// Uniform in a disc, or a ball, but for its hollow share of the radius.
+// These return the distance from the middle of a place uniform in a disc, or in a ball, whose inner part, `hollow` of the
+// radius, is empty.
 float discRadius(float radius, float hollow, float u)
 {
     return radius * sqrt(mix(hollow * hollow, 1.0, u));

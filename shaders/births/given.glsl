@@ -15,7 +15,8 @@ uniform int partFirst;
 uniform int partPlaces;
 uniform int firstWord;  // of the group's bits
 #ifdef DEATH_RUNS
-// It reads, of each emitter's source, a part of the state. Newborns that no death emits are spawned by each, the same.
+// The dispatch reads one part of the state of each emitter's source. A newborn that no death emits needs no source: every
+// dispatch over the sources spawns it, with the same result.
 uniform ivec4 sourcePlaces[DEATH_RUNS];  // first place, number of places, unused
 #endif
 #endif

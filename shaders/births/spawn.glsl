@@ -19,7 +19,7 @@ vec3 dv[VERTICES];
 #include "state/samples.glsl"
 #include "births/given.glsl"
 
-// The first of `count` triangles whose share of the area ends beyond x.
+// Returns the first of `count` triangles at whose end the summed share of the area is above x.
 int triangleAt(int base, int count, float x)
 {
     int low = 0;
@@ -37,7 +37,7 @@ int triangleAt(int base, int count, float x)
 
 #include "generated/emitters.glsl"
 
-// The step's coefficients for one of another length.
+// Sets the coefficients of a step of another length.
 void setStep(float h)
 {
     substep = h;
@@ -46,7 +46,7 @@ void setStep(float h)
     flightBend = vec2(dragBend(dragRate.x, h), dragBend(dragRate.y, h));
 }
 
-// A thrust over any time, s.
+// Applies a thrust over any time, s.
 void thrustFor(float time)
 {
 #ifdef THRUST

@@ -11,19 +11,20 @@ vec3 startPlace[VERTICES];     // m, before contact
 vec4 struck[VERTICES];         // the last surface's normal and friction; w negative: none
 vec3 struckSurface[VERTICES];  // m/s, its velocity
 
-// s, since the frame's start, when so many substeps are done; 0 where no collider moves.
+// Returns the time after so many substeps, s since the frame's start; 0 where no collider moves.
 float contactTime(int done)
 {
     return collidersMove ? float(done) * substep : 0.0;
 }
 
-// m/s^2, what presses vertex i on beside gravity and forces. A body answers for its springs as a whole.
+// The acceleration that presses vertex i on a collider beside gravity and forces, m/s^2. A rigid body's springs press on none of
+// its vertices.
 #define PRESSED(i) (SPRINGS && !RIGID_IMPACT ? LOAD(i) + SPRUNG(i) : LOAD(i))
 
-// A vertex's drift as physics/collide.glsl has it.
+// The drift of vertex i, as physics/collide.glsl takes it.
 #define DRIFT_OF(i) DRIFT(fallAt(anchor, touchPosition[i]) + PRESSED(i), beyondBy[i])
 
-// The vertices as contact takes them up.
+// Copies the vertices for contact.
 void beginAnswers()
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -51,7 +52,7 @@ void acceptAnswers(float time)
     findFooting(time);
 }
 
-// Whether contact with colliders is this step's to answer: not where other molecules hold a rigid one off them.
+// Whether this step resolves contact with colliders: not where other molecules hold a rigid one off them.
 bool mayAnswer()
 {
     return taken() && !(MAY_BE_HELD && heldByContact);

@@ -45,7 +45,7 @@ void beginHistory()
     }
 }
 
-// After an impact: the step after it starts anew.
+// Makes the step after an impact start without history.
 void forgetHistory()
 {
     restart = true;
@@ -86,7 +86,7 @@ void thrustAhead()
 #endif
 }
 
-// The stage without springs.
+// Finds the stage's solution without springs.
 void predict(int step)
 {
     bool held = !released;

@@ -28,7 +28,7 @@ vec3 spinOf(Body body, vec3 arm, vec3 impulse)
     return body.perInertia * cross(arm, impulse);
 }
 
-// How an impulse along the unit vector n at `arm` moves its own point along n, 1/kg.
+// Returns the inverse effective mass, 1/kg, of an impulse along the unit vector n at `arm`.
 float yielding(Body body, vec3 arm, vec3 n)
 {
     vec3 across = cross(arm, n);
@@ -54,7 +54,7 @@ Body bodyAtRest()
     return Body(1.0 / mass, inverse(inertia + mat3(1e-5 * most)), centre, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
-// One vertex answers what the others have done to the body.
+// Brings one vertex's normal and friction impulse to what the body's velocity, with all impulses so far, asks of it.
 void push(inout Body body, vec3 arm, vec3 before, vec3 alone, vec4 struck, vec3 surface, inout float normal,
           inout vec3 tangent)
 {
@@ -93,7 +93,7 @@ void lift(inout Body body, vec3 arm, vec3 way, vec3 n, inout float height)
     body.turn += spinOf(body, arm, impulse);
 }
 
-// After every vertex has answered for itself: instead, the whole molecule does.
+// Replaces the answers of the single vertices by one of the whole molecule.
 void answerAsBody()
 {
     bool held = false;

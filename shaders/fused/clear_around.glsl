@@ -1,6 +1,6 @@
-// Where in a frame a molecule cannot touch anything.
+// A ball within which a molecule cannot touch anything in a frame.
 
-// A ball that no surface reaches into, around where the first vertex is when the frame begins.
+// No surface reaches into the ball around the place of the first vertex when the frame begins.
 vec3 clearAround;   // m
 float clearRadius;  // m, negative inside
 

@@ -36,7 +36,7 @@ void springForces(float time)
     }
 }
 
-// The area vectors of the triangles from `first` to `end`, each from its first corner, to where velocities were.
+// Shares the area vectors of the triangles from `first` to `end`, each from its first corner, in the place of the velocities.
 void shareAreas(int first, int end)
 {
     waitForGroup();
@@ -64,7 +64,7 @@ void addAreas(inout vec3 sum, inout ivec2 fan, int first, int end)
 
 ivec2 fans[VERTICES];
 
-// Unit normals of the surface through the probes, from as many triangles at a time as there is room for.
+// Finds unit normals of the surface through the probes, from as many triangles at a time as there is room for.
 void surfaceNormals()
 {
     shareProbes();
@@ -85,7 +85,7 @@ void surfaceNormals()
     }
 }
 
-// The largest of what the lanes of a molecule have, in all of them.
+// Returns to all lanes of a molecule the largest of their values.
 float largest(float value)
 {
     waitForGroup();
@@ -101,7 +101,7 @@ bool anyLane(bool value)
     return largest(value ? 1.0 : 0.0) > 0.5;
 }
 
-// N: the strongest pull of the springs on a pin.
+// Returns the strongest pull of the springs on a pin, N.
 float pullOnPins()
 {
     float pull = 0.0;

@@ -1,4 +1,4 @@
-// What contacts with other molecules remember acts on the vertices (contact/response/apply.pass.glsl).
+// The remembered impulses of contacts with other molecules act on the vertices (contact/response/apply.pass.glsl).
 #include "state/numbered.glsl"
 #include "contact/rest/states.glsl"
 

@@ -5,7 +5,7 @@
 #include "step/advance.glsl"
 #include "step/drag.glsl"
 
-// m/s^2 on vertex i beside drag and springs.
+// The acceleration of vertex i beside drag and springs, m/s^2.
 #if defined(FORCES) || defined(STEERED)
 #define PULLED(i) (gravity + pull[i])
 #else
@@ -18,8 +18,7 @@ bool isHeld(bool pinned)
     return PINS && pinned && !released;
 }
 
-// The first forces of a frame decide whether the molecule's pins hold. To be called after springForces, if there are
-// springs.
+// Decides by the first forces of a frame whether the molecule's pins hold. Called after springForces, if there are springs.
 void letGo(int step)
 {
     if (!RELEASE || step > 0) return;
@@ -27,7 +26,7 @@ void letGo(int step)
     released = released || isReleased(pulled, releaseForce, seed, frame, releaseChance);
 }
 
-// Fields that are read once a frame are read where the molecule will be in the middle of it.
+// Reads the fields that are read once a frame, where the molecule will be in the middle of it.
 void sampleFrame()
 {
     if (!hasFields || SAMPLE_SUBSTEPS) return;
@@ -105,7 +104,7 @@ void kickWhole(int step, float time)
     }
 }
 
-// Drag and gravity over the substep on all that is not held, and its drift.
+// Applies drag and gravity over the substep to all vertices that are not held, and moves them.
 void driftAll()
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -119,7 +118,7 @@ void driftAll()
 }
 
 #ifdef THRUST
-// To all that is not held.
+// Adds to the velocity of all vertices that are not held.
 void gain(vec3 gained)
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -135,8 +134,8 @@ void thrustBy(bool whole)
 }
 #endif
 
-// The thrust over a substep or half of one, exactly, so that halves before and after what else a substep does keep an
-// order of 2.
+// Applies the thrust over a substep or half of one, exactly, so that halves before and after what else a substep does
+// keep an order of 2.
 void thrust(bool whole)
 {
 #ifdef THRUST
@@ -147,13 +146,13 @@ void thrust(bool whole)
 #endif
 }
 
-// Inside an implicit stage, where the velocity that drags is the one that results.
+// Returns the velocity after drag in an implicit stage, whose drag is that of the velocity which results.
 vec3 stageDragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     return draggedBy(velocity, u, a, n, stageDecay, stagePhi);
 }
 
-// How far drag and the acceleration carry over a substep, exactly.
+// Returns how far drag and the acceleration carry a vertex over a substep, exactly, m.
 vec3 flight(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     vec3 slope = dragAcceleration(velocity, u, a, n);

@@ -1,4 +1,5 @@
-// The watchdog in fragments: what is fine is discarded and nothing is written: a query tells whether anything was left.
+// The watchdog in fragments. A texel is discarded unless its molecule has run away, and nothing is written: a query tells
+// whether a texel was left.
 // Needs fused/lane.glsl.
 #include "fused/watch.glsl"
 

@@ -1,6 +1,6 @@
 // The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups holds
-// 1 + the number of the frame (fused/alarm.glsl); in fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it
-// looks.
+// 1 + the number of the frame (fused/alarm.glsl); in fragments a pass of its own asks (fused/watch.frag). Which
+// molecule it was, the CPU finds in the state.
 #include "fused/state.glsl"
 #include "physics/runaway.glsl"
 

@@ -42,7 +42,7 @@ vec3 framesOnce(float age, float count, bool blend)
     return blend ? vec3(frame, frame + 1.0f, position - frame) : vec3(floor(position), floor(position), 0.0f);
 }
 
-// Again and again. `start`: the share of all tiles at 0 seconds.
+// The same for a flip-book that repeats. `start`: the share of all tiles at 0 seconds.
 vec3 framesAgain(float seconds, float rate, float start, float count, bool blend)
 {
     float position = fract(seconds * rate / count + start) * count;
@@ -59,7 +59,7 @@ float turnedBy(float rate, uint blocks, float rest)
     return rate * rest + float(share * blocks) * (fullTurn / 4294967296.0f);
 }
 
-// One of `count` tiles.
+// Returns one of `count` tiles, each as likely.
 float randomTile(uint seed, float count)
 {
     return min(floor(uniformFrom(hashSeed(seed, tileCounter)) * count), count - 1.0f);
@@ -70,14 +70,14 @@ vec4 aboutAxis(vec3 axis, float angle)
     return vec4(axis * sin(0.5f * angle), cos(0.5f * angle));
 }
 
-// First b, then a.
+// Returns the rotation b followed by a.
 vec4 composed(vec4 a, vec4 b)
 {
     vec3 av = vec3(a), bv = vec3(b);
     return vec4(a.w * bv + b.w * av + cross(av, bv), a.w * b.w - dot(av, bv));
 }
 
-// Every direction alike.
+// Returns a uniformly distributed direction.
 vec3 randomAxis(uint seed)
 {
     float z = 2.0f * uniformFrom(hashSeed(seed, axisCounter)) - 1.0f;

@@ -1,4 +1,4 @@
-// What of a pixel a particle covers. What C++ sets is in particles/kinds.glsl.
+// How much of a pixel a particle covers. What C++ sets is in particles/kinds.glsl.
 
 #include "particles/kinds.glsl"
 #include "render/blend.glsl"
@@ -15,13 +15,13 @@ uniform sampler2DArray image;  // a layer a tile, so that none bleeds into anoth
 uniform float pixels;          // of a point
 uniform float leastCover;      // below this a pixel of what is not blended is left out
 
-// Pixels from the middle of a point or sprite.
+// Returns the pixel's place relative to the middle of a point or sprite, in pixels.
 vec2 offMiddle()
 {
     return gl_FragCoord.xy - pointMiddle;
 }
 
-// The pixel in the particle's square.
+// Returns the pixel's place in the particle's square, whose corners are at +-1.
 vec2 inSquare()
 {
     if (SHAPE == pointsShape) return offMiddle() * (2.0 / pixels);
@@ -29,7 +29,7 @@ vec2 inSquare()
     return corner;
 }
 
-// The edge at 1 of something that grows from the inside out, one pixel wide.
+// Returns the coverage of a shape whose edge is where `outwards` is 1; the edge is one pixel wide.
 float insideOf(float outwards)
 {
     return clamp((1.0 - outwards) / max(fwidth(outwards), 1e-4) + 0.5, 0.0, 1.0);

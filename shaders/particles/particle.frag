@@ -13,7 +13,7 @@ uniform float perSoftness;     // 1/m
 
 out vec4 fragment;
 
-// A ball's, but for what faces free, which is a flat sheet.
+// Returns the normal of a ball, but for a particle of free facing, which is a flat sheet.
 vec3 normalAt(vec2 point)
 {
     if (FACING == freeFacing) return dot(frame[2], place) > 0.0 ? -frame[2] : frame[2];

@@ -1,4 +1,4 @@
-// Contacts between molecules act on a vertex by what they remember (contact/response/gains.pass.glsl).
+// The remembered impulses of contacts between molecules act on a vertex (contact/response/gains.pass.glsl).
 #include "state/textures.glsl"
 #ifdef REMEMBERS
 #include "state/numbered.glsl"
@@ -7,7 +7,7 @@ uniform sampler2D contactLoads;  // m/s^2, by sphere
 uniform int firstSphere;         // of the group
 #endif
 
-// m/s^2. `own`: x vertex, y molecule.
+// Returns their acceleration, m/s^2. `own`: x vertex, y molecule.
 vec3 loadOn(ivec2 own)
 {
 #ifdef REMEMBERS

@@ -1,4 +1,4 @@
-// A texel a vertex of one group, into the state: what its sphere's contacts do (contact/response/gains.pass.glsl).
+// Adds to each vertex of one group what its sphere has gained by contacts (contact/response/gains.pass.glsl).
 #include "state/textures.glsl"
 #include "state/numbered.glsl"
 

@@ -1,5 +1,5 @@
-// watch: once a frame, last. What is fine is discarded and nothing is written: a query tells whether anything was
-// left.
+// watch: the last pass of a frame. A texel is discarded unless its state has run away, and nothing is written: a query
+// tells whether a texel was left.
 #include "state/textures.glsl"
 #include "physics/runaway.glsl"
 

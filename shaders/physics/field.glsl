@@ -68,7 +68,7 @@ vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period
 // Noise by table (src/scene/noise_tile.h): places in a tile are in tiles, and the tile repeats. shaders/state/noise_tile.glsl
 // reads it there.
 
-// A place for each number, far from that of the next.
+// Returns a place for each number, far from that of the next.
 vec3 tilePlace(uint number)
 {
     return vec3(float(number * 3518319155u), float(number * 2882110345u), float(number * 2360945575u)) * 2.3283064e-10f;

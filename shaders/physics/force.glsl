@@ -3,7 +3,7 @@
 // gives no direction and counts as 0.
 // Read as C++ through GLM by the tests.
 
-// Towards the point by strength / d^2 (m^3/s^2), at most `most`; away from it where the strength is negative.
+// Returns a pull towards the point by strength / d^2 (m^3/s^2), at most `most`; away from it where the strength is negative.
 vec3 inverseSquarePull(vec3 x, float strength, float radius, float most)
 {
     float squared = dot(x, x);
@@ -12,14 +12,14 @@ vec3 inverseSquarePull(vec3 x, float strength, float radius, float most)
     return x * (squared > radius * radius ? 0.0f : -pull / sqrt(near));
 }
 
-// Towards the point by `strength` (m/s^2) at any distance within the radius.
+// Returns a pull towards the point by `strength` (m/s^2) at any distance within the radius.
 vec3 constantPull(vec3 x, float strength, float radius)
 {
     float squared = dot(x, x);
     return x * (squared > radius * radius ? 0.0f : -strength / sqrt(max(squared, 1e-30f)));
 }
 
-// Towards the line by `pull` and around it by `turn` (m/s^2 at the core's edge): both grow with the distance d as
+// Returns a pull towards the line, `pull`, and around it, `turn` (m/s^2 at the core's edge): both grow with the distance d as
 // d / core within the core, and fall as core / d beyond.
 vec3 vortexLinePull(vec3 x, vec3 axis, float pull, float turn, float core, float radius)
 {
@@ -29,7 +29,7 @@ vec3 vortexLinePull(vec3 x, vec3 axis, float pull, float turn, float core, float
     return (cross(axis, r) * turn - r * pull) * (squared > radius * radius ? 0.0f : share);
 }
 
-// Factor on a velocity: exact over a time t with growth = exp(rate t). What is below the limit grows up to it; what is
+// Returns the factor on a velocity, exact over a time t with growth = exp(rate t). What is below the limit grows up to it; what is
 // above stays as it is; a growth below 1 damps at any speed.
 float thrustFactor(vec3 velocity, float growth, float limit)
 {

@@ -1,8 +1,8 @@
 // Contact of two spheres of masses m and 1/w. All that is the same for both comes out the same to the bit on either
 // side, so that what one gains the other loses. Read as C++ through GLM by the tests.
 
-// What rests may overlap by so much of the sum of the radii. If it were pushed apart to the last, it would lose touch with what else
-// it lies on, and fall back onto that at the speed at which a contact may close, in every step.
+// The share of the sum of the radii by which resting spheres may overlap. A sphere that were pushed out of all overlap would lose
+// touch with what else it lies on, and fall back onto that at the speed at which a contact may close, in every step.
 const float restingOverlap = 0.005f;
 
 struct PairContact {
@@ -31,7 +31,7 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
     float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
     vec3 touch = (d - u * since) / reach;
     float touchSpeed = dot(touch, u);
-    // One that the last step missed by a rounding of the positions is this step's.
+    // An impact that the last step missed by a rounding of the positions counts in this step.
     bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
 
     float apart = sqrt(squared);
@@ -62,11 +62,11 @@ vec3 withinFriction(vec3 impulse, vec3 n, float friction)
     return along >= 0.0f && grip <= most ? impulse : n * max(along, 0.0f) + across * (most / max(grip, 1e-30f));
 }
 
-// How far an iteration answers slip, as a part of how far it answers what is along the normal: of 0.2 to 1, the part with which
-// piles converge fastest.
+// The relaxation factor of slip, relative to that of the velocity along the normal: of 0.2 to 1, the one with which piles
+// converge fastest.
 const float frictionStep = 0.4f;
 
-// Contacts that act on one thing together: the sum of x n n^T + y (1 - n n^T), as its diagonal and what lies beside it
+// Contacts that act on one sphere or body together: the sum of x n n^T + y (1 - n n^T), as its diagonal and what lies beside it
 // (yz, xz, xy), and their number.
 struct ContactSum {
     vec3 diagonal;
@@ -79,7 +79,7 @@ ContactSum noContacts()
     return ContactSum(vec3(0.0f), vec3(0.0f), 0.0f);
 }
 
-// Adds one with the unit normal n. `parts`: x and y, of its two weights (pairImpulse) what is not the turning of a body.
+// Adds a contact with the unit normal n. `parts`: x and y, of its two weights (pairImpulse) what is not the turning of a body.
 ContactSum withContact(ContactSum sum, vec3 n, vec2 parts)
 {
     float across = frictionStep * parts.y;
@@ -111,8 +111,8 @@ float traceOf(mat3 a, mat3 b)
     return dot(a[0], t[0]) + dot(a[1], t[1]) + dot(a[2], t[2]);
 }
 
-// By how much contacts that act on one thing together may outdo what each does alone: the largest eigenvalue of their sum, or up
-// to 1.15 times that, from the trace of the eighth power.
+// Returns the effective number of contacts that act on one sphere, by which a Jacobi step is divided: the largest
+// eigenvalue of their sum, or up to 1.15 times that, from the trace of the eighth power.
 float effectiveCount(ContactSum sum)
 {
     mat3 squared = matrixOf(sum);

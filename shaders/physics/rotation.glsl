@@ -1,7 +1,7 @@
 // Rotations by unit quaternions: xyz the axis times the sine of half the angle, w its cosine.
 // Read as C++ through GLM by the tests.
 
-// By q, and back.
+// These return v rotated by q, and by the inverse of q.
 vec3 turned(vec4 q, vec3 v)
 {
     vec3 across = cross(vec3(q.x, q.y, q.z), v) * 2.0f;
@@ -13,7 +13,7 @@ vec3 turnedBack(vec4 q, vec3 v)
     return turned(vec4(-q.x, -q.y, -q.z, q.w), v);
 }
 
-// Every rotation alike, from three numbers uniform in [0, 1) [Shoemake 1992].
+// Returns a uniformly distributed rotation from three numbers uniform in [0, 1) [Shoemake 1992].
 vec4 anyRotation(float u, float v, float w)
 {
     float angleA = 6.2831853f * v;

@@ -1,8 +1,8 @@
 // Detects a runaway state (src/simulate/watchdog.h): faster than FASTEST_SQUARED says, or not finite.
 // Read as C++ through GLM by the tests.
 
-// The bits of a square, of which those of what is not finite are larger than all others. As whole numbers, because a
-// compiler may take a comparison of floats for one without NaNs.
+// Returns the bits of a vector's square. Those of infinity and NaN are larger, as whole numbers, than those of every finite one. A
+// comparison of floats would not do: compilers may assume that there are no NaNs.
 uint squareBits(vec3 value)
 {
     return floatBitsToUint(dot(value, value));

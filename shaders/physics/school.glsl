@@ -1,7 +1,7 @@
 // How the members of a school steer [Reynolds 1987], as accelerations in m/s^2. None is singular: separation does not
 // part two members in the same place. Read as C++ through GLM by the tests.
 
-// Away from another at -d (m), within a radius: 1 at the distance 0, none at the radius.
+// Returns a push away from a member at -d (m): of size 1 at the distance 0, falling to 0 at the radius.
 vec3 awayFrom(vec3 d, float radius)
 {
     float squared = dot(d, d);
@@ -16,7 +16,7 @@ bool isSeen(vec3 d, vec3 forward, float blindCosine)
     return along >= 0.0f || along * along <= blindCosine * blindCosine * dot(d, d);
 }
 
-// At most so long.
+// Returns v, cut to the length `most`.
 vec3 atMost(vec3 v, float most)
 {
     float squared = dot(v, v);
@@ -30,13 +30,13 @@ vec3 inTurn(vec3 first, vec3 then, float most)
     return a + atMost(then, max(most - sqrt(dot(a, a)), 0.0f));
 }
 
-// m, the way back between two bounds.
+// Returns the way back between two bounds, m.
 vec3 backInto(vec3 p, vec3 low, vec3 high)
 {
     return clamp(p, low, high) - p;
 }
 
-// m, the way back into a ball.
+// Returns the way back into a ball, m.
 vec3 backIntoBall(vec3 p, vec3 center, float radius)
 {
     vec3 d = center - p;
@@ -56,7 +56,7 @@ vec3 courseOf(vec3 wanted, vec3 forward, float steepest)
     return d / sqrt(max(dot(d, d), 1e-20f));
 }
 
-// rad: the turn from one unit vector to another about its axis; about `otherwise` where they are opposite.
+// Returns the turn from one unit vector to another, its axis times its angle in rad; about `fallback` where they are opposite.
 vec3 turnBetween(vec3 from, vec3 to, vec3 fallback)
 {
     vec3 axis = cross(from, to);
@@ -74,7 +74,7 @@ float wanderSine(float time, float least, float random, float phase)
     return sin(time * ((least + floor(256.0f * random)) / 256.0f) + 40.0f * phase);
 }
 
-// Here and there, in [-1, 1]: three sines whose periods, 2 to 7 s, and phases depend on the seed.
+// Returns a number that wanders in [-1, 1]: the mean of three sines whose periods, 2 to 7 s, and phases depend on the seed.
 float wanderOf(float time, float a, float b, float c)
 {
     return (wanderSine(time, 230.0f, a, b) + wanderSine(time, 435.0f, b, c) + wanderSine(time, 666.0f, c, a)) / 3.0f;

@@ -3,7 +3,7 @@
 // axis, an edge from inside) one of them. Read as C++ through GLM by the tests.
 #include "physics/rotation.glsl"
 
-// m: the squares of less are lost to rounding, and a direction with them.
+// Below this length, m, squares are lost to rounding, and a direction with them.
 const float noDirection = 1e-15f;
 
 // x: relative to the centre.

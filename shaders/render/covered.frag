@@ -1,4 +1,4 @@
-// Alpha 1: drawn where something stands in front of the far plane.
+// Writes alpha 1 where something stands in front of the far plane.
 
 out vec4 fragment;
 

@@ -1,4 +1,4 @@
-// Depth of sprites as the sun sees them: round.
+// Depth of sprites as the sun sees them, which are round.
 
 void main()
 {

@@ -55,7 +55,7 @@ Others lookAround(vec3 place, vec3 forward, int slot)
 // The most members of a run that are looked at, spread evenly over it. Each counts for those that it stands for.
 const int mostOfRun = 48;
 
-// Towards those that are hunted, away from those that are fled from.
+// Returns the acceleration towards those that are hunted and away from those that are fled from.
 vec3 meetTargets(vec3 place)
 {
     vec3 a = vec3(0.0);

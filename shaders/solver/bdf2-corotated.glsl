@@ -15,7 +15,7 @@
 mat3 turn;  // of the rest shape
 vec3 start[VERTICES];     // m, q without springs
 
-// Two vectors as axes: the first, then the plane of both.
+// Returns three axes made of two vectors: along the first, across the plane of both, and across these two.
 mat3 axesOf(vec3 first, vec3 second)
 {
     vec3 a = first / sqrt(max(dot(first, first), 1e-24));
@@ -46,7 +46,7 @@ void fitTurn(mat3 covariance)
                 turned(axis, turn[2], sine, cosine));
 }
 
-// Turns the rest shape onto x + q; whether it is far from it.
+// Turns the rest shape onto x + q. Returns whether a vertex is far from its place in it.
 bool fit(int rounds)
 {
     vec3 centre = vec3(0.0);
@@ -66,7 +66,7 @@ bool fit(int rounds)
     return furthest > STRAYS * STRAYS * scale * scale;
 }
 
-// One quasi-Newton step; the sum of its squares.
+// Takes one quasi-Newton step. Returns the sum of its squares, m^2.
 float improve(float time)
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -95,7 +95,7 @@ void beginSolver()
            transpose(axesOf(restArm[FIT_B] - restArm[FIT_A], restArm[FIT_C] - restArm[FIT_A]));
 }
 
-// Two quasi-Newton steps; whether they come to an end.
+// Takes two quasi-Newton steps. Returns whether they converge.
 bool solved(float time)
 {
     float first = 0.0;

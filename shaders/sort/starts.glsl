@@ -3,7 +3,7 @@
 #pragma reads sorted
 #pragma writes starts
 
-// Writes what this slot, of `count`, settles; `key` is its own, of `keys`.
+// Writes the starts that follow from this slot, of `count`; `key` is its own, of `keys`.
 void writeStarts(int slot, uint key, int count, int keys)
 {
     uint next = slot == 0 ? 0u : sortedAt(slot - 1).x + 1u;

@@ -1,4 +1,4 @@
-// A texel a key, of `numbers`: the first slot whose key is not below it.
+// Writes for each key, of `numbers`, the first slot whose key is not below it.
 #include "state/lanes.glsl"
 #include "sort/pairs.glsl"
 #pragma reads sorted

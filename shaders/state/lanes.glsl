@@ -30,7 +30,7 @@ int ownNumber()
     return int(gl_GlobalInvocationID.x);
 }
 
-// Lanes behind the last do what it does.
+// Lanes behind the last repeat the last one's work.
 int ownLane()
 {
     return min(ownNumber(), numbers - 1);

@@ -15,20 +15,20 @@ vec4 sampleAt(int index)
 }
 #endif
 
-// fromLow, fromHigh: of the anchor, from the box's corners.
+// fromLow, fromHigh: the anchor, relative to the box's corners, m.
 bool insideBox(vec3 fromLow, vec3 fromHigh, vec3 position)
 {
     return all(greaterThanEqual(fromLow + position, vec3(0.0))) && all(lessThanEqual(fromHigh + position, vec3(0.0)));
 }
 
-// The cell that stands for cell i, which lies at most one outside 0 .. count - 1.
+// Returns the cell that stands for cell i, which lies at most one outside 0 .. count - 1.
 int outsideIndex(int i, int count, bool wrap)
 {
     if (!wrap) return clamp(i, 0, count - 1);
     return i < 0 ? i + count : i >= count ? i - count : i;
 }
 
-// Trilinear between cell centres. x: relative to the grid's low corner, m; perMetre: cells per metre.
+// Returns the velocity, trilinear between cell centres. x: relative to the grid's low corner, m; perMetre: cells per metre.
 vec3 gridVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap)
 {
     vec3 p = x * perMetre - 0.5;
@@ -50,8 +50,8 @@ vec3 gridVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap)
     return sum;
 }
 
-// A sequence of grids behind one another, linear in time. place: the time in frames from the first; where
-// the sequence repeats, the first follows the last.
+// Returns the velocity of a sequence of grids that lie behind one another, linear in time. place: the time in frames from the
+// first; where the sequence repeats, the first follows the last.
 vec3 gridSequenceVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap, float place, int frames,
                           bool repeats)
 {
@@ -65,7 +65,7 @@ vec3 gridSequenceVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, boo
                gridVelocity(x, perMetre, resolution, base + next * cells, wrap), place - first);
 }
 
-// The place, in frames, `elapsed` s after frame `first` of a sequence of so many a second.
+// Returns the place, in frames, `elapsed` s after frame `first` of a sequence of so many a second.
 float placeEvenly(float first, float elapsed, float framesPerSecond)
 {
     return first + elapsed * framesPerSecond;

@@ -17,7 +17,7 @@ const int mostTouches = alone ? 1 : 6;  // of a substep; a vertex that touches m
 
 #include "step/way.glsl"
 
-// Two planes that press at once: takes the position onto both and the velocity along both.
+// Moves the position onto two planes that press at once, and takes the velocity along both.
 // `off`: distances of the position; `speeds`: of the velocity along the normals, beyond the surfaces' own.
 void keepToBoth(inout Contact c, vec3 a, vec3 b, vec2 off, vec2 speeds)
 {
@@ -28,13 +28,13 @@ void keepToBoth(inout Contact c, vec3 a, vec3 b, vec2 off, vec2 speeds)
     c.velocity -= (a * (speeds.x - cosine * speeds.y) + b * (speeds.y - cosine * speeds.x)) / across;
 }
 
-// With verlet contact is a constraint on the position: the velocity is what that leaves.
+// Sets with verlet, where contact is a constraint on the position, the velocity that follows from the position.
 void followPosition(inout Contact c, vec3 position, vec3 velocity, float step)
 {
     if (isConstraint) c.velocity = velocity + (c.position - position) / step;
 }
 
-// Whether neither surface alone takes the velocity out of the other.
+// Whether a velocity, when its part into one surface is taken out, still goes into the other, whichever comes first.
 bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
 {
     return dot(toB - b * dot(toB, b), a) < 0.0 && dot(toA - a * dot(toA, a), b) < 0.0;

@@ -1,7 +1,7 @@
 // The way of a vertex through a substep, followed from touch to touch.
 
-// Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
-// because this is asked of every vertex in every substep.
+// Returns a number, m^2, that is negative where a vertex and the surfaces may move by more than `free` towards one another
+// in a step. In squares, because this is asked of every vertex in every substep.
 float beyondReach(float free, vec3 velocity, float step)
 {
     float squared = dot(velocity, velocity);
@@ -26,7 +26,7 @@ vec3 wayOut(Survey s, vec3 gravity)
     return together > 0.1 ? s.outwards / together : across;
 }
 
-// Negative where a vertex is inside a collider, or so near that it may have crossed one.
+// Returns a number that is negative where a vertex is inside a collider, or so near that it may have crossed one.
 float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
 {
     vec2 free = clearances(anchor, position, time);
