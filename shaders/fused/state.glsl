@@ -96,7 +96,7 @@ void loadUniforms()
     releaseChance = inRegister(givenNumbers[6].y);
 }
 
-// Returns `now`. Where each lane leaves the loop over the substeps by itself, Mesa's rasteriser keeps a lane's value
+// Returns `after`. Where each lane leaves the loop over the substeps by itself, Mesa's rasteriser keeps a lane's value
 // after the loop only if a turn computes it from the turn before. Any other value becomes that of the turn in which the
 // last lane left.
 vec3 carried(vec3 before, vec3 after) { return !CARRIES || substeps > 0 ? after : before; }

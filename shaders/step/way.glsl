@@ -46,7 +46,7 @@ struct Way {
 // of c.position from its plane at the touch, and `way` moves on to that touch.
 //
 // One survey stands here for the way and for its end, because a rasteriser on a CPU runs this text at least once a frame.
-// `at`: the survey of the end.
+// `met`: the survey of the end.
 Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, out Survey met)
 {
     Touch found = noTouch();

@@ -4,8 +4,8 @@
 
 namespace shoal::gpu {
 
-// Into the buffer that is bound. False: no memory for it. Some drivers count bytes in 32 bits, so what they
-// say they have is compared with what was asked.
+// Allocates and fills the bound buffer. Returns whether there was memory for it. Some drivers count bytes in
+// 32 bits, so the size that they report is compared with the one that was asked for.
 static bool allocate(Buffer::Use use, const void* data, size_t bytes) {
     // A size that is no GLsizeiptr becomes negative, which OpenGL refuses.
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data,

@@ -65,7 +65,7 @@ enum class Barrier : GLbitfield {
     bufferUpdate = GL_BUFFER_UPDATE_BARRIER_BIT,  // what Buffer does itself, and asks for itself
 };
 
-// Before the command that reads, naming how it reads.
+// Called before the command that reads, with the ways in which it reads.
 void barrier(std::initializer_list<Barrier> readers);
 
 // A buffer read as texels: texelFetch(samplerBuffer, i) is bytes 16 i to 16 i + 15 as four floats; with the

@@ -19,7 +19,7 @@ namespace shoal::gpu {
 // another form, or of such a constant.
 class Conditions {
   public:
-    // Whether what stands here is used.
+    // Whether the current line is in no branch that is left out.
     bool taken() const;
     // Takes the next line, which is no #include; returns whether it stays in the text. Directives go, defines
     // without a value among them.

@@ -133,7 +133,7 @@ class Context {
     Traffic& traffic() { return state_->traffic; }
     const std::string& shaders() const { return state_->shaders; }
     ProgramCache& cache() const { return *state_->cache; }  // gpu/program_cache.h
-    // For programs that are made from now on.
+    // Sets the folder of the shaders of programs that are made from now on.
     void setShaders(const std::string& folder) { state_->shaders = folder; }
     // Files on disk that programs of this context were made of.
     const std::set<std::string>& shaderFiles() const { return state_->shaderFiles; }

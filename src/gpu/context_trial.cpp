@@ -26,7 +26,7 @@ std::string crashInChild(const std::function<void()>& make) {
             ::_exit(1);
         }
     });
-    // One that fails, or has not ended, proves nothing: the program itself finds out more.
+    // A child that fails, or has not ended, proves nothing: the program itself finds out more.
     const std::optional<int> status = child.wait(patience);
     if (!status || !WIFSIGNALED(*status)) return {};
     const std::string driver = environment("GALLIUM_DRIVER");

@@ -52,7 +52,7 @@ class Handle {
 inline constexpr int editUnit = 47;
 void bindToEdit(GLenum target, GLuint texture);
 
-// A named bracket around OpenGL calls, which debuggers and profilers show. Nothing below OpenGL 4.3.
+// A named bracket around OpenGL calls, which debuggers and profilers show. Does nothing below OpenGL 4.3.
 class DebugGroup {
   public:
     DebugGroup(const ContextInfo& info, const char* name);
@@ -64,8 +64,8 @@ class DebugGroup {
     bool open_ = false;
 };
 
-// The name of an object in debuggers, cut where it is long; `type` such as GL_TEXTURE. Nothing below 4.3 or
-// for an empty name.
+// Sets the name of an object in debuggers, cut where it is long; `type` such as GL_TEXTURE. Does nothing
+// below OpenGL 4.3 or for an empty name.
 void labelObject(const Context& context, GLenum type, GLuint id, const char* label);
 
 }  // namespace shoal::gpu

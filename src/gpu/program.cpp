@@ -85,7 +85,7 @@ void compileAndLink(GLuint program, const std::vector<Stage>& stages, const Prog
                        indented(logOf(program, glGetProgramiv, glGetProgramInfoLog))));
 }
 
-// light[0] is asked for as light, light.color by its whole name.
+// Returns the name by which a uniform is asked for: light for light[0], and light.color as it is.
 std::string withoutIndex(std::string name) {
     if (name.size() > 3 && name.compare(name.size() - 3, 3, "[0]") == 0) name.resize(name.size() - 3);
     return name;
@@ -124,7 +124,7 @@ void forUniforms(GLuint program, const Visit& visit) {
 
 // The program that use() took last, for contracts: asking the driver at each uniform would make it wait.
 GLuint lastUsed = 0;
-// What lies at each unit and binding, as far as programs have put it there.
+// The texture at each unit and the buffer at each binding, as far as programs have put them there.
 std::vector<GLuint> textureAt, bufferAt;
 
 void put(std::vector<GLuint>& names, size_t place, GLuint what) {

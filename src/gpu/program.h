@@ -73,7 +73,7 @@ class Program {
     const std::vector<std::string>& updated() const { return slots_->updated; }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX, int groupsY = 1) const;
-    // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
+    // Dispatches as many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
     void dispatchIndirect(const Buffer& groups, size_t offset) const;
     bool uses(const char* name) const { return locations_.contains(name); }  // the compiler kept it
     bool declares(const char* block) const { return declaredBlocks_.contains(block); }  // a storage block
@@ -84,7 +84,7 @@ class Program {
 
   private:
     friend void beginPass();
-    // What its samplers and blocks were given last, each at its unit or binding.
+    // The textures and buffers that its samplers and blocks were given last, by unit and by binding.
     struct Slots {
         std::string label;
         std::vector<std::string> samplers, blocks, written, updated;
@@ -104,14 +104,14 @@ class Program {
     std::set<std::string, std::less<>> declaredBlocks_;         // storage blocks
 };
 
-// Goes before a draw: all that the program in use reads is where it was given (a contract), and the pass is
-// recorded (gpu/frame_record.h).
+// Called before a draw. Checks that all that the program in use reads is where it was given (a contract), and
+// records the pass (gpu/frame_record.h).
 void beginPass();
 
 // Returns the label of the program that is being made or used for the first time, when rasterisers compile
 // it, for any thread to ask; empty: there is none.
 std::string firstUse();
-// What the driver does from here on is for no program's first use.
+// Ends the first use: firstUse() is empty from here on.
 void endFirstUse();
 
 // Programs of one owner by what they are made of: whoever asks for the same gets the same program, under the

@@ -35,7 +35,8 @@ struct ShaderSource {
     // Every "0:12(5): error:" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:" (Intel, AMD, Apple) becomes
     // "file:line[:column]: …"; other lines stay as they are.
     std::string rewriteLog(const std::string& driverLog) const;
-    // Where the first error of the log points, else its first message; empty when none does.
+    // Returns the place that the first error of the log points to, else that of its first message; empty when
+    // none points anywhere.
     Location firstLocation(const std::string& driverLog) const;
 };
 

@@ -43,7 +43,7 @@ GroupState moved(const GroupState& saved, const GroupPlan& from, const GroupPlan
     return out;
 }
 
-// Beginning with the other plan's start, for the places that are new.
+// Returns a group's state on the other plan, in which new places have that plan's start.
 GroupState carried(const GroupState& saved, double time, const GroupPlan& from, const GroupPlan& to) {
     GroupState out = moved(saved, from, to);
     if (!to.life) return out;
@@ -60,7 +60,8 @@ GroupState carried(const GroupState& saved, double time, const GroupPlan& from, 
     return out;
 }
 
-// s, of the last substep, from which a solver with history goes on; 0: it does not, because forces jump.
+// Returns the length of the last substep, s, from which a solver with history goes on; 0 where it starts
+// anew, because forces jump.
 double stepBefore(const SavedState& saved, const Plan& from, const Plan& to) {
     using checkpoint::forcesAt;
     return forcesAt(from, saved.time) == forcesAt(to, saved.time) ? saved.step : 0;

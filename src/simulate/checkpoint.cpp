@@ -16,7 +16,7 @@ using checkpoint::Head;
 
 namespace {
 
-// As PNG's: the ends show a file that was sent as text or cut at once.
+// Begins and ends as PNG's signature does, which shows that a file was sent as text or cut at once.
 constexpr char magic[8] = {'\x8c', 'S', 'h', 'o', 'a', 'l', '\r', '\n'};
 constexpr uint32_t ownOrder = 0x01020304, otherOrder = 0x04030201;
 constexpr uint64_t longestHead = uint64_t(1) << 24;  // bytes

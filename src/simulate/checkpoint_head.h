@@ -71,7 +71,7 @@ std::vector<GroupHead> groupsOf(const Plan& plan);
 // A fingerprint of all that acts on molecules at a time, beside the sliders: a solver with history goes on
 // only under the same.
 uint64_t forcesAt(const Plan& plan, double time);
-// For people, how the scene differs from the one that was saved; empty: not.
+// Says for people how the scene differs from the one that was saved; empty where it does not.
 std::string difference(const std::vector<GroupHead>& saved, const std::vector<GroupHead>& here);
 
 std::string pack(const Head& head);

@@ -29,7 +29,7 @@ struct SimulationOptions {
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     bool watchdog = true;            // simulate/watchdog.h
     // Fused, for tests: contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context
-    // is; both give the same bits. And as on a GPU what ran away is noticed late, as late as it may be.
+    // is; both give the same bits. For a GPU, a state that ran away is noticed as late as it may be.
     std::optional<bool> asOnGpu = std::nullopt;
     // Fused, for tests: a dispatch takes at most so many molecules or newborns, as on a device of small
     // blocks; 0: as many as this one takes.
@@ -79,9 +79,9 @@ class ExecutionPath {
     // The groups before the last frame; nothing where they are gone.
     virtual std::optional<std::vector<GroupState>> readBefore() const { return {}; }
 
-    // How many frames have been issued since disarm() after one that left a state which ran away: 0, it was
-    // the last. They have changed nothing, and goBack() takes them back. Nothing: none ran away, as far as is
-    // known without waiting, or, where it `waits`, up to the last. Reads 4 bytes.
+    // Returns how many frames have been issued after the first since disarm() whose state ran away; 0 if that
+    // was the last frame. They have changed nothing, and goBack() takes them back. Returns none if no such
+    // frame is known, without waiting or, where it `waits`, up to the last frame. Reads 4 bytes.
     virtual std::optional<int> framesSinceAlarm(bool waits) = 0;
     virtual void goBack(int) {}
     virtual void disarm() = 0;
@@ -89,8 +89,8 @@ class ExecutionPath {
     virtual const ContactResult* contact() const = 0;  // null: there is none
     virtual Lanes lanes(size_t) const { return Lanes::automatic; }
     virtual LifeCounts lifeCounts(size_t) const { return {}; }
-    // Other numbers for a group, from the next frame on. False, and nothing changes: it has none of the kind,
-    // or what differs needs another plan.
+    // These change a group's numbers from the next frame on. They return false, and change nothing, where the
+    // group has none of the kind or what differs needs another plan.
     virtual bool changeLife(size_t, const Lifecycle&) { return false; }
     virtual bool changeSchool(size_t, const School&) { return false; }
 };

@@ -19,14 +19,14 @@ class Places {
     // `allocator`: stack or heap.
     Places(Allocator allocator, size_t count);
 
-    // Frees what ends by this time.
+    // Frees the places whose lives end by this time.
     void freeUntil(double time);
-    // A place until `end`; false: there is none.
+    // Takes a place until `end`. Returns false where none is free.
     bool take(double end, uint32_t& place);
     int mark() const { return mark_; }  // one past the last taken place
     size_t taken() const { return ends_.size() - free_.size(); }
 
-    // All of it, to go on from.
+    // These read and restore all of the state, to go on from.
     const std::vector<double>& ends() const { return ends_; }  // of each place, s; free: not above now
     std::vector<uint32_t> stack() const;                       // empty for a heap
     void restore(const std::vector<double>& ends, const std::vector<uint32_t>& stack, double time);

@@ -102,14 +102,15 @@ const Middles& expected(CheckedPart part) {
     return part == CheckedPart::step ? step : contact;
 }
 
-// By what a verdict is known in this process: the driver, the path, the part, and the folder of the shaders.
+// Returns the key of a verdict within this process: the driver, the path, the part, and the folder of the
+// shaders.
 std::string keyOf(const gpu::Context& context, Path path, CheckedPart part) {
     const gpu::ContextInfo& info = context.info();
     return concat(gpu::name(info.kind), "\n", info.renderer, "\n", info.vendor, "\n", info.version, "\n",
                   name(path), "\n", int(part), "\n", context.shaders());
 }
 
-// By what it is known between runs: that, and the text of all shaders.
+// Returns the key of a verdict between runs: that of the process, `all`, and the text of all shaders.
 std::string fileKey(const gpu::Context& context, std::string all) {
     std::vector<std::filesystem::path> files;
     std::error_code code;  // a context without shaders says so when a program is made

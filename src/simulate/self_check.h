@@ -1,6 +1,6 @@
 // Whether an execution path computes on a driver what it should. Drivers err in silence (docs/testing.md), so
-// each path is run once with a small scene, in about a second, and held against stored numbers; what came of
-// it is kept by driver.
+// each path is run once with a small scene, in about a second, and compared with stored numbers. The verdict
+// is kept for each driver.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ double selfCheckError(gpu::Context& context, Path path, CheckedPart part);
 constexpr double selfCheckTolerance = 2e-5;
 
 // Returns why a path is not to be relied on with this driver: "contact on the path fragments is off by 8.3 mm
-// with ..."; empty: it computes what it should. Known in this process, else from the context's cache, else
-// checked now.
+// with ..."; empty: it computes what it should. The verdict is this
+// process's, else the one in the context's cache; else the check runs now.
 std::string selfCheck(gpu::Context& context, Path path, CheckedPart part);
 
 }  // namespace shoal

@@ -28,10 +28,10 @@ struct Parameters {
     double frameTime = 1.0 / 60;                  // s
 };
 
-// As the scene has them: no slider moved.
+// Returns the parameters as the scene has them, before any slider is moved.
 Parameters parametersOf(const Plan& plan);
-// Whether forces jump from one to the other. A force that is moved by hand moves on without a jump, if with
-// corners.
+// Whether forces jump from one to the other. A force that is moved by hand makes no jump, only a
+// corner in its path.
 bool jumps(const Parameters& from, const Parameters& to);
 
 struct Frame {
@@ -77,10 +77,10 @@ struct ReleaseLimits {
 };
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
 
-// With the weights and the times as the frame has them.
+// Returns the numbers of the fields, with the weights and the times of the frame.
 std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame);
 
-// A group's, with the colliders where they are in this frame.
+// Returns the numbers of a group's colliders, where these are in the frame.
 std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame);
 
 // The numbers of the forces on a group, for the text of compile/generate_forces.h. A path and a change by

@@ -5,7 +5,7 @@
 
 namespace shoal {
 
-// In rows, of which the last is seldom full; nothing where the table is empty.
+// Makes a texture with the table in rows, of which the last is seldom full; none where the table is empty.
 static gpu::Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, const char* label) {
     if (table.empty()) return {};
     gpu::Texture texture(context, gpu::Format::rgba32f, stateWidth, stateRows(table.size()), label);

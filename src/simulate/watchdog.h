@@ -29,9 +29,9 @@ struct GroupState;
 struct Plan;
 struct SavedState;
 
-// m/s. Above it a vertex has run away: a hundred times as fast as sound would be in these molecules.
+// Above this speed, m/s, a vertex has run away: a hundred times as fast as sound would be in these molecules.
 constexpr double runawaySpeed = 1e4;
-// For shaders/physics/runaway.glsl: "FASTEST_SQUARED 1e8".
+// Returns the define of shaders/physics/runaway.glsl: "FASTEST_SQUARED 1e8".
 std::string fastestDefine();
 
 // The vertex that ran away: the first that is not finite, else the fastest.
@@ -47,7 +47,7 @@ struct Alarm {
 Alarm findAlarm(const SavedState& state);
 bool runsAway(const Alarm& alarm);
 
-// Who, when, and what may have caused it; located at the group.
+// Says which vertex ran away, when, and what may have caused it; located at the group.
 class Runaway : public Error {
   public:
     Runaway(const Plan& plan, const Alarm& alarm);
@@ -71,7 +71,7 @@ class RunawayQuery {
         Asking& operator=(const Asking&) = delete;
         ~Asking();
     };
-    // 0: the last frame left a state that ran away. Waits for the answer, 4 bytes.
+    // Returns 0 where the last frame left a state that ran away, else none. Waits for the answer, 4 bytes.
     std::optional<int> framesSince() const;
     void disarm() { asked_ = false; }
 
@@ -94,10 +94,10 @@ class RunawayWord {
     RunawayWord(gpu::Context& context, Reading reading);
 
     void bind(const gpu::Program& program) const { program.storage("Alarm", word_); }
-    // After the kernels of a frame, with a barrier for Buffer behind them.
+    // Called after the kernels of a frame and a barrier for Buffer.
     void endFrame(int number);
-    // How many frames after one that ran away have been issued: 0, it was the last one. Nothing: as far as is
-    // known none ran away.
+    // Returns how many frames have been issued after the first one whose state ran away; 0 if that was the
+    // last frame, none if no such frame is known.
     std::optional<int> framesSince(bool waits);
     void goBack(int frames) { last_ -= frames; }
     void disarm();
