@@ -137,10 +137,11 @@ class EmitterText {
         // the place is from the lattice point: what slot 1 adds is taken off
         return concat(
             "        int triangle = ", base, " + 3 * triangleAt(", base, ", ", count, ", dice.x);\n",
-            "        vec3 edge = sampleAt(triangle + 1).xyz, second = sampleAt(triangle + 2).xyz;\n",
-            "        float root = sqrt(dice.y);\n", "        vec3 outward = normalize(cross(edge, second));\n",
+            "        vec3 edge = sampleAt(triangle + 1).xyz, otherEdge = sampleAt(triangle + 2).xyz;\n",
+            "        float root = sqrt(dice.y);\n",
+            "        vec3 outward = normalize(cross(edge, otherEdge));\n",
             "        vec3 offset = (sampleAt(triangle).xyz - ", slot(1),
-            ".xyz) + edge * (root * (1.0 - dice.z)) + second * (root * dice.z);\n");
+            ".xyz) + edge * (root * (1.0 - dice.z)) + otherEdge * (root * dice.z);\n");
     }
 
     // Where its first vertex was at that moment.
