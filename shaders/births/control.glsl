@@ -10,5 +10,3 @@ const int controlLost = 6;         // births that found no place, so far
 const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
-const int mostDeathRuns = 4;
-const uint mostGroups = 65535u;    // that any device takes in one direction of a dispatch

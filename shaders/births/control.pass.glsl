@@ -11,7 +11,7 @@ uniform int renewal;        // what is renewed (BirthPasses::Renewal)
 uniform int summedPlaces;   // over which the sums go
 uniform int scheduled;      // births that the CPU knows of
 uniform int deathRunCount;
-uniform ivec4 deathRuns[mostDeathRuns];  // x the group that dies, y births for each
+uniform ivec4 deathRuns[MOST_DEATH_RUNS];  // x the group that dies, y births for each
 uniform ivec4 parts;        // of the group's state: x the first, y how many, z places of each, w molecules of a workgroup
 
 const int ofDeaths = 0;
@@ -79,8 +79,8 @@ void putBirths(bool allocates)
     put(controlBorn, born);
     count(controlLost, requested - born);
     count(controlBornEver, born);
-    uint groups = (born + 63u) / 64u;
-    uint rows = max((groups + mostGroups - 1u) / mostGroups, 1u);
+    uint groups = (born + uint(BIRTH_LANES) - 1u) / uint(BIRTH_LANES);
+    uint rows = max((groups + uint(MOST_GROUPS) - 1u) / uint(MOST_GROUPS), 1u);
     put(controlBirthGroups, (groups + rows - 1u) / rows);
     put(controlBirthGroups + 1, rows);
     put(controlBirthGroups + 2, 1u);

@@ -139,7 +139,11 @@ void BirthPasses::makeOrder() {
 void BirthPasses::makePrograms(gpu::Context& context) {
     const bool textures = table_.form() == Form::textures;
     sums_ = Program(context, arrays_.passOptions("births/sums", "sums of places"));
-    control_ = Program(context, arrays_.passOptions("births/control", "control of births"));
+    gpu::ProgramOptions control = arrays_.passOptions("births/control", "control of births");
+    control.defines.push_back(concat("MOST_DEATH_RUNS ", mostDeathRuns));
+    control.defines.push_back(concat("BIRTH_LANES ", birthLanes));
+    control.defines.push_back(concat("MOST_GROUPS ", mostGroups));
+    control_ = Program(context, control);
     list_ = Program(context, arrays_.passOptions("births/list", "list of deaths"));
     for (const auto& living : groups_) {
         if (!living) continue;

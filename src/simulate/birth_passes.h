@@ -30,6 +30,8 @@
 
 namespace shoal {
 
+constexpr int mostGroups = 65535;  // that any device takes in one direction of a dispatch
+
 class BirthPasses {
   public:
     virtual ~BirthPasses() = default;

@@ -11,8 +11,6 @@ using gpu::Traffic;
 
 namespace {
 
-constexpr int mostGroups = 65535;  // that any device takes in one direction of a dispatch
-
 std::vector<glm::ivec4> partsOf(const std::vector<GroupBuffers>& state) {
     std::vector<glm::ivec4> out;
     for (const GroupBuffers& group : state)

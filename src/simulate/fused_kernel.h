@@ -40,7 +40,7 @@ struct KernelOptions {
 // another program, which it compiles.
 std::vector<int> drawsOf(size_t values, int targets);
 
-constexpr int birthLanes = 64;  // of a workgroup of births (shaders/births/control.pass.glsl counts with it)
+constexpr int birthLanes = 64;  // of a workgroup of births
 // Vertices that a lane of the step holds, at most.
 int verticesOfLane(const GroupPlan& group, const KernelOptions& options);
 // Molecules of a workgroup of the step.
