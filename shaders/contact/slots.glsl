@@ -1,4 +1,4 @@
-// The spheres of contact by slot: a place in the order of their cells (contact/arrays.txt).
+// The spheres of contact by slot, a place in the order of their cells (contact/arrays.txt), and the step that contact has with them.
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 #include "contact/flags.glsl"
@@ -7,6 +7,8 @@
 uniform int count;     // spheres
 uniform int keyMask;   // of the table of cells
 uniform float cell;    // m
+uniform float stepTime;   // s
+uniform float restSpeed;  // m/s: what closes more slowly is no impact
 
 int sphereOf(int slot)
 {

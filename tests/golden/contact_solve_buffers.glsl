@@ -165,6 +165,8 @@ uvec4 cellsAt(int i)
 uniform int count;
 uniform int keyMask;
 uniform float cell;
+uniform float stepTime;
+uniform float restSpeed;
 int sphereOf(int slot)
 {
     return int(sortedAt(slot).y);
@@ -337,14 +339,11 @@ struct BodySphere {
     mat3 perInertia;
     float turning;
 };
+const BodySphere noBody = BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
 struct BodyMotion {
     vec3 shift;
     vec3 turn;
 };
-BodyMotion bodyMotion(BodySphere body, vec3 impulse)
-{
-    return BodyMotion(impulse * body.perMass, body.perInertia * cross(body.arm, impulse));
-}
 vec3 motionAt(BodySphere body, BodyMotion motion)
 {
     return motion.shift + cross(motion.turn, body.arm);
@@ -368,9 +367,8 @@ BodySphere bodySphereAt(int sphere)
 }
 void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
 {
-    BodyMotion more = bodyMotion(body, impulse);
-    motion.shift += more.shift;
-    motion.turn += more.turn;
+    motion.shift += impulse * body.perMass;
+    motion.turn += body.perInertia * cross(body.arm, impulse);
 }
 uniform usamplerBuffer lists;
 uint listsAt(int i, int e)
@@ -383,8 +381,6 @@ vec4 materialsAt(int i)
     return texelFetch(materials, i);
 }
 uniform int groupCount;
-uniform float stepTime;
-uniform float restSpeed;
 struct Sphere {
     vec3 place;
     uint label;
@@ -423,7 +419,7 @@ bool holds(int slot, int other)
 }
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if (!BODIES || sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    if (!BODIES || sphere.rests) return noBody;
     return bodySphereAt(sphereOf(slot));
 }
 struct Pair {
@@ -448,10 +444,6 @@ vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
     float turning = dot(across, body.perInertia * across);
     return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
 }
-vec2 ownWeights(vec3 n)
-{
-    return weightsOf(own, ownBody, n);
-}
 uniform usamplerBuffer effectiveCounts;
 uint effectiveCountsAt(int i)
 {
@@ -463,7 +455,7 @@ float effectiveCountOf(int slot, Sphere sphere)
 }
 vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
-    return ownWeights(n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
+    return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 Pair pairOf(int slot, int other, float bounceFrom)
 {
@@ -620,12 +612,17 @@ Constraint constraintOf(int slot, int e)
 {
     return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
 }
+#define collidersAt(i, k) vec4(0)
 struct NearCollider {
     vec3 normal;
     float gap;
     vec3 velocity;
     float friction;
 };
+bool isNear(NearCollider collider)
+{
+    return collider.gap < 1e20;
+}
 vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
 {
     vec4 texels[2 * MOST_COLLIDERS];
@@ -635,16 +632,11 @@ vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
     }
     return texels;
 }
-#define collidersAt(i, k) vec4(0)
-NearCollider colliderOf(int slot, int k)
+NearCollider colliderNear(int sphere, int k)
 {
-    vec4 place = collidersAt(sphereOf(slot), 2 * k);
-    vec4 surface = collidersAt(sphereOf(slot), 2 * k + 1);
+    vec4 place = collidersAt(sphere, 2 * k);
+    vec4 surface = collidersAt(sphere, 2 * k + 1);
     return NearCollider(place.xyz, place.w, surface.xyz, surface.w);
-}
-bool pressesOn(NearCollider near)
-{
-    return near.gap < 1e20 && own.weight > 0.0;
 }
 uniform samplerBuffer warmStart;
 vec4 warmStartAt(int i)
@@ -682,7 +674,7 @@ vec4 solveEntry(int slot, int e, out vec3 normal)
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
     if (ownCount <= 0.0) return vec4(0.0);
-    vec2 weights = stepWeights(ownWeights(near.normal) * ownCount, ownCount);
+    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
     Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
                                   near.friction);
     Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
@@ -707,8 +699,8 @@ void main()
         vec4 next[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
-            NearCollider near = colliderOf(slot, k);
-            if (!pressesOn(near)) break;
+            NearCollider near = colliderNear(sphereOf(slot), k);
+            if (!isNear(near) || own.weight <= 0.0) break;
             vec4 push = colliderImpulsesAt(row, k);
             next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
             impulse += next[k].xyz;

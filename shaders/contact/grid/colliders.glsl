@@ -1,10 +1,17 @@
 // A collider near a sphere, in two texels of `colliders`.
+#pragma reads colliders
+
 struct NearCollider {
     vec3 normal;    // unit
     float gap;      // m, from the sphere's centre to where it would rest; 1e30: none is near
     vec3 velocity;  // m/s, of the surface
     float friction;
 };
+
+bool isNear(NearCollider collider)
+{
+    return collider.gap < 1e20;
+}
 
 vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
 {
@@ -14,4 +21,11 @@ vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
         texels[2 * k + 1] = vec4(near[k].velocity, near[k].friction);
     }
     return texels;
+}
+
+NearCollider colliderNear(int sphere, int k)
+{
+    vec4 place = collidersAt(sphere, 2 * k);
+    vec4 surface = collidersAt(sphere, 2 * k + 1);
+    return NearCollider(place.xyz, place.w, surface.xyz, surface.w);
 }

@@ -1,25 +1,10 @@
 // A sphere of one group as the fused step's state has it.
 #include "contact/grid/shape.glsl"
-#include "physics/cells.glsl"
-#include "contact/flags.glsl"
-#include "contact/response/body.glsl"
+#include "contact/grid/sphere.glsl"
 
 uniform VALUES oldState;
 uniform VALUES oldRecords;
 uniform VALUES constants;
-uniform float cell;
-uniform float givenRadius;
-uniform float contactStep;  // s
-
-struct StateSphere {
-    vec3 anchor;    // m
-    vec3 position;  // m, from there
-    vec3 velocity;  // m/s
-    float weight;   // 1/kg
-    float radius;   // m
-    bool lives;     // its molecule lives
-    bool fresh;     // and has been born since the last contact step
-};
 
 StateSphere sphereOfState(int molecule, int k)
 {
@@ -65,10 +50,10 @@ StateSphere sphereOfState(int molecule, int k)
     return own;
 }
 
-// Zeros without RIGID. `place`: of the sphere, m from the molecule's anchor.
+// `place`: of the sphere, m from the molecule's anchor.
 BodySphere bodySphereOf(int molecule, vec3 place)
 {
-    if (!RIGID) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    if (!RIGID) return noBody;
     int first = firstElement(molecule, STATE_ELEMENTS);
     float mass = 0.0;
     vec3 centre = vec3(0.0);
@@ -89,11 +74,4 @@ BodySphere bodySphereOf(int molecule, vec3 place)
     mat3 perInertia = inverse(inertia + mat3(1e-5 * most));
     float trace = perInertia[0][0] + perInertia[1][1] + perInertia[2][2];
     return BodySphere(arm, 1.0 / mass, perInertia, dot(arm, arm) * trace - dot(arm, perInertia * arm));
-}
-
-CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
-{
-    CellPlace place = cellPlace(own.anchor, own.position + shift, cell);
-    if (!own.lives) place.cell = cellApart(sphere);
-    return place;
 }

@@ -1,23 +1,7 @@
 // A sphere of one group as the textures of the ping-pong path have it.
 #include "state/lanes.glsl"
-#include "state/topology.glsl"
 #include "state/textures.glsl"
-#include "physics/cells.glsl"
-#include "contact/flags.glsl"
-#include "contact/response/body.glsl"
-
-uniform float cell;
-uniform float givenRadius;
-
-struct StateSphere {
-    vec3 anchor;    // m
-    vec3 position;  // m, from there
-    vec3 velocity;  // m/s
-    float weight;   // 1/kg
-    float radius;   // m
-    bool lives;     // always, here
-    bool fresh;     // never, here
-};
+#include "contact/grid/sphere.glsl"
 
 StateSphere sphereOfState(int molecule, int vertex)
 {
@@ -28,13 +12,7 @@ StateSphere sphereOfState(int molecule, int vertex)
                        givenRadius * texelFetch(constants, recordTexel(molecule), 0).y, true, false);
 }
 
-// None is rigid here.
 BodySphere bodySphereOf(int molecule, vec3 place)
 {
-    return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
-}
-
-CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
-{
-    return cellPlace(own.anchor, own.position + shift, cell);
+    return noBody;
 }

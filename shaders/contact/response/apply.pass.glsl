@@ -9,8 +9,6 @@ const bool applies = true;
 #pragma writes loads
 
 uniform int partSpheres;
-uniform float stepTime;     // s, of a contact step
-uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
 layout(std430) buffer State { float state[]; };

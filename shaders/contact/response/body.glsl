@@ -12,16 +12,12 @@ struct BodySphere {
     float turning;  // 1/kg, how an impulse of 1 N s changes the sphere's velocity by turning the body, summed over three axes
 };
 
+const BodySphere noBody = BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);  // of what gives way alone or not at all
+
 struct BodyMotion {
     vec3 shift;  // of the centre of mass
     vec3 turn;
 };
-
-// Returns how an impulse at a sphere changes the motion of its body.
-BodyMotion bodyMotion(BodySphere body, vec3 impulse)
-{
-    return BodyMotion(impulse * body.perMass, body.perInertia * cross(body.arm, impulse));
-}
 
 vec3 motionAt(BodySphere body, BodyMotion motion)
 {
@@ -50,9 +46,9 @@ BodySphere bodySphereAt(int sphere)
     return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodiesAt(sphere, 2).xyz), d.w);
 }
 
+// Adds how an impulse at a sphere changes the motion of its body.
 void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
 {
-    BodyMotion more = bodyMotion(body, impulse);
-    motion.shift += more.shift;
-    motion.turn += more.turn;
+    motion.shift += impulse * body.perMass;
+    motion.turn += body.perInertia * cross(body.arm, impulse);
 }

@@ -1,7 +1,7 @@
 // The memory that the last step has left of the contacts of a sphere: with buffers by sphere, so that a sphere that rests costs nothing; in fragments
 // by the slot that it had.
 #include "contact/slots.glsl"
-#pragma reads oldSlots oldCounts memoryCounts
+#pragma reads oldSlots oldCounts oldLists memoryCounts partners slots
 
 int memoryOf(int sphere)
 {
@@ -16,4 +16,22 @@ uint memoryCountAt(int memory)
 bool remembersAt(int memory)
 {
     return isActedOn(memoryCountAt(memory));
+}
+
+// Returns how many contacts it has.
+int rememberedBy(int memory)
+{
+    return listedIn(memoryCountAt(memory));
+}
+
+// Returns the memory of the other sphere of a contact.
+int partnerAt(int memory, int e)
+{
+    return int(inTextures ? oldListsAt(memory, e) : partnersAt(memory, e));
+}
+
+// With buffers, the slot of that sphere.
+int partnerSlot(int sphere, int e)
+{
+    return int(slotsAt(partnerAt(sphere, e)));
 }

@@ -15,8 +15,6 @@
 #pragma reads counts lists materials
 
 uniform int groupCount;
-uniform float stepTime;   // s, of a contact step
-uniform float restSpeed;  // m/s
 
 struct Sphere {
     vec3 place;     // m, local (physics/cells.glsl)
@@ -60,10 +58,9 @@ bool holds(int slot, int other)
     return found;
 }
 
-// Returns zeros for a sphere that gives way alone or not at all.
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if (!BODIES || sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    if (!BODIES || sphere.rests) return noBody;
     return bodySphereAt(sphereOf(slot));
 }
 
@@ -94,11 +91,6 @@ vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
     return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
 }
 
-vec2 ownWeights(vec3 n)
-{
-    return weightsOf(own, ownBody, n);
-}
-
 #pragma reads effectiveCounts
 
 // The effective number of contacts (physics/pair.glsl) by which a sphere's Jacobi step is divided: 1 for a resting sphere, whose 1/mass is
@@ -111,7 +103,7 @@ float effectiveCountOf(int slot, Sphere sphere)
 // Returns what it changes of the two spheres' relative velocity. `effective`: the effective counts of the two.
 vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
-    return ownWeights(n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
+    return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 
 // `bounceFrom`: m/s; slower is no impact.

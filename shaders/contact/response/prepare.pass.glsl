@@ -11,7 +11,7 @@
 #endif
 #include "contact/response/pair.glsl"
 #include "contact/response/memory.glsl"
-#pragma reads oldLists oldImpulses oldAnchors oldWarmStart partners keptImpulses keptAnchors
+#pragma reads oldImpulses oldAnchors oldWarmStart keptImpulses keptAnchors
 
 int memory;  // of the own sphere
 bool remembers;
@@ -22,12 +22,7 @@ void loadOld(int slot)
     loadSphere(slot);
     memory = memoryOf(sphereOf(slot));
     remembers = !own.fresh && remembersAt(memory);
-    oldListed = remembers ? listedIn(memoryCountAt(memory)) : 0;
-}
-
-int partnerAt(int e)
-{
-    return int(inTextures ? oldListsAt(memory, e) : partnersAt(memory, e));
+    oldListed = remembers ? rememberedBy(memory) : 0;
 }
 
 ContactImpulse oldImpulse(int e)
@@ -48,7 +43,7 @@ ContactImpulse prepare(int slot, int other, out Pair pair)
 {
     int otherMemory = memoryOf(sphereOf(other));
     int place = -1;
-    for (int e = 0; e < oldListed; ++e) place = partnerAt(e) == otherMemory ? e : place;
+    for (int e = 0; e < oldListed; ++e) place = partnerAt(memory, e) == otherMemory ? e : place;
     ContactImpulse old = oldImpulse(max(place, 0));
     bool isOld = place >= 0 && old.kind != NO_PART && !isFresh(other);
     // what is remembered is no impact, however fast it closes
@@ -95,7 +90,7 @@ void main()
     putEntries();
 }
 #else
-#include "contact/response/colliders.glsl"
+#include "contact/grid/colliders.glsl"
 #pragma reads oldColliders oldNormals
 
 ContactImpulse begin(int slot, int e, out Pair pair)
@@ -118,7 +113,7 @@ ContactSum contacts = ContactSum(vec3(0.0), vec3(0.0), 0.0);
 
 void countIn(vec3 normal)
 {
-    contacts = withContact(contacts, normal, own.weight / max(ownWeights(normal), vec2(1e-30)));
+    contacts = withContact(contacts, normal, own.weight / max(weightsOf(own, ownBody, normal), vec2(1e-30)));
 }
 
 // Of a collider in the last step.
@@ -137,7 +132,7 @@ struct ColliderImpulse {
 vec4 prepareCollider(int slot, NearCollider near, ColliderImpulse old[MOST_COLLIDERS])
 {
     vec4 push = vec4(0.0);
-    if (!pressesOn(near) || !isActedOn(countsAt(slot))) return push;
+    if (!isNear(near) || own.weight <= 0.0 || !isActedOn(countsAt(slot))) return push;
     countIn(near.normal);
     for (int o = 0; o < MOST_COLLIDERS; ++o) {
         bool same = remembers && dot(old[o].normal, near.normal) > 0.9;
@@ -171,7 +166,7 @@ void main()
         for (int k = 0; k < MOST_COLLIDERS; ++k) old[k] = ColliderImpulse(colliderImpulsesAt(memory, k) * part, oldNormal(slot, k));
         vec4 pushes[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
-            NearCollider near = colliderOf(slot, k);
+            NearCollider near = colliderNear(sphereOf(slot), k);
             pushes[k] = prepareCollider(slot, near, old);
             impulse += pushes[k].xyz;
             shift += near.normal * pushes[k].w;

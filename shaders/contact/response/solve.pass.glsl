@@ -74,7 +74,7 @@ Constraint constraintOf(int slot, int e)
     return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
 }
 #endif
-#include "contact/response/colliders.glsl"
+#include "contact/grid/colliders.glsl"
 #pragma reads warmStart
 #pragma writes nextTotals nextVelocities nextColliderImpulses
 
@@ -99,7 +99,7 @@ vec4 solveEntry(int slot, int e, out vec3 normal)
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
     if (ownCount <= 0.0) return vec4(0.0);
-    vec2 weights = stepWeights(ownWeights(near.normal) * ownCount, ownCount);
+    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
     Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
                                   near.friction);
     Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
@@ -125,8 +125,8 @@ void main()
         vec4 next[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
-            NearCollider near = colliderOf(slot, k);
-            if (!pressesOn(near)) break;
+            NearCollider near = colliderNear(sphereOf(slot), k);
+            if (!isNear(near) || own.weight <= 0.0) break;
             vec4 push = colliderImpulsesAt(row, k);
             next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
             impulse += next[k].xyz;

@@ -1,6 +1,7 @@
 // The last stage of contact/response/pair.glsl: how far the contacts move the spheres, and what they remember for the next step.
 #pragma updates totals colliderImpulses
-#include "contact/response/colliders.glsl"
+#include "contact/grid/colliders.glsl"
+#include "contact/response/pair.glsl"
 #pragma reads impulses anchors
 #pragma writes warmStart partners keptImpulses keptAnchors memoryCounts oldNormals
 #pragma writes nextTotals when textures
@@ -60,7 +61,7 @@ void main()
             keeps += push.xyz;
             isHeld = isHeld || push != vec4(0.0);
             putColliderImpulses(memory, k, push);
-            putOldNormals(memory, k, vec4(colliderOf(slot, k).normal, 0.0));
+            putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
         }
     }
     putTotals(slot, 1, vec4(shift, 0.0));

@@ -1,8 +1,7 @@
 // A lane a slot, where molecules may rest: lists what is awake, and marks what rests and has touched something that is awake now.
 #include "state/lanes.glsl"
 #include "contact/rest/marks.glsl"
-#include "contact/slots.glsl"
-#include "contact/rest/partners.glsl"
+#include "contact/response/memory.glsl"
 #pragma writes awakeSlots counts
 
 void main()

@@ -5,7 +5,7 @@
 #pragma updates marks memoryCounts partners keptImpulses keptAnchors restLoads
 #include "contact/response/pair.glsl"
 #include "contact/rest/mark_groups.glsl"
-#include "contact/rest/partners.glsl"
+#include "contact/response/memory.glsl"
 #pragma reads markedSlots warmStart colliderImpulses
 
 uniform float wakeSpeed;  // m/s

@@ -3,8 +3,7 @@
 // once for what is struck, and once more for each of these contacts.
 #include "state/lanes.glsl"
 #include "contact/rest/marks.glsl"
-#include "contact/slots.glsl"
-#include "contact/rest/partners.glsl"
+#include "contact/response/memory.glsl"
 #pragma reads groupsOf
 
 uniform int contactsAway;  // of what wakes others in this dispatch

@@ -82,8 +82,6 @@ void search(int slot)
 }
 
 #ifdef MARKED
-#include "contact/rest/partners.glsl"
-
 // A molecule that an impact further away has woken has not moved yet: it touches what it did.
 void recall(int slot)
 {
@@ -117,7 +115,6 @@ void main()
 void main()
 {
     int slot = ownLane();
-    beginList();
     search(slot);
     if (!isBehindLast()) finish(slot);
 }

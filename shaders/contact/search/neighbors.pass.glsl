@@ -4,22 +4,14 @@
 #include "contact/search/touch.glsl"
 #pragma reads staggered slots
 
-void look(int slot)
-{
-    for (int k = -NEIGHBORS; k <= NEIGHBORS; ++k) {
-        int other = slot + k;
-        if (k != 0 && other >= 0 && other < count && isCandidate(other)) meet(other);
-    }
-}
-
-// `place`: of the slot in the second grid.
-void lookStaggered(int place)
+// `place`: of the slot in the order of one of the grids.
+void look(int place, bool inSecond)
 {
     for (int k = -NEIGHBORS; k <= NEIGHBORS; ++k) {
         int beside = place + k;
         if (k != 0 && beside >= 0 && beside < count) {
-            int other = int(slotsAt(int(staggeredAt(beside).y)));
-            if (isCandidate(other) && !isListed(other)) meet(other);
+            int other = inSecond ? int(slotsAt(int(staggeredAt(beside).y))) : beside;
+            if (isCandidate(other) && !(inSecond && isListed(other))) meet(other);
         }
     }
 }
@@ -30,11 +22,10 @@ void lookStaggered(int place)
 void main()
 {
     int slot = ownLane();
-    beginList();
     loadOwn(slot);
-    look(slot);
+    look(slot, false);
     uint key = staggeredKey(ownCell, ownPlace, cell, keyMask);
-    lookStaggered(placeOfNumber(staggered, uint(sphereOf(slot)), placeOfKey(staggered, key, count), count));
+    look(placeOfNumber(staggered, uint(sphereOf(slot)), placeOfKey(staggered, key, count), count), true);
     finish(slot);
 }
 #elif defined(SECOND_GRID)
@@ -43,17 +34,16 @@ void main()
     int place = ownLane();
     int slot = int(slotsAt(int(staggeredAt(place).y)));
     loadOwn(slot);
-    found = foundBefore(slot);
-    lookStaggered(place);
+    found = int(countsAt(slot) & CONTACTS);
+    look(place, true);
     if (!isBehindLast()) finish(slot);
 }
 #else
 void main()
 {
     int slot = ownLane();
-    beginList();
     loadOwn(slot);
-    look(slot);
+    look(slot, false);
     if (!isBehindLast()) finish(slot);
 }
 #endif

@@ -3,14 +3,11 @@
 #ifdef MARKS
 #include "contact/rest/marks.glsl"
 #endif
-#include "contact/slots.glsl"
+#include "contact/grid/colliders.glsl"
 #include "contact/response/memory.glsl"
 #include "contact/response/body.glsl"
 #include "physics/pair.glsl"
-#pragma reads apart groupsOf colliders
-
-uniform float stepTime;   // s, of a contact step
-uniform float restSpeed;  // m/s
+#pragma reads apart groupsOf
 
 int searching;  // the slot
 vec3 ownPlace;
@@ -18,6 +15,7 @@ uint ownLabel;
 ivec3 ownCell;
 float ownRadius;
 int found = 0;
+uvec4 entries[LIST / 4];  // the list of its contacts, while it is made, in fragments, which write it at their end
 
 void loadOwn(int slot)
 {
@@ -28,6 +26,8 @@ void loadOwn(int slot)
     uvec4 own = cellsAt(slot);
     ownCell = ivec3(own.xyz);
     ownRadius = withoutFlag(own.w);
+    if (inTextures)
+        for (int i = 0; i < LIST / 4; ++i) entries[i] = uvec4(0u);
 }
 
 ivec3 cellOf(int slot)
@@ -66,22 +66,27 @@ bool haveMet(vec3 d, float reach, int slot)
     return pairContact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed, 1.0).impact;
 }
 
-// The list of its contacts, while it is made: fragments write it at their end.
+// Whether a collider holds a sphere that its step has not held: of a rigid body one that is near, of a triangle one that it overlaps.
+bool isHeldByCollider(int sphere)
+{
+    if (!SPREADS || !COLLIDERS) return false;
+    NearCollider nearest = colliderNear(sphere, 0);
+    if (BODIES && bodySphereAt(sphere).perMass > 0.0) return isNear(nearest);
+    return nearest.gap < -restingOverlap * ownRadius;
+}
+
+// Returns the slot's count.
+uint countFound(int slot)
+{
+    int sphere = sphereOf(slot);
+    uint counted = uint(found) | (isHeldByCollider(sphere) ? HELD : 0u);
+    bool responds = counted != 0u || (REMEMBERS && remembersAt(memoryOf(sphere)));
+    return counted | (responds ? RESPONDS : 0u);
+}
+
 #ifdef TEXTURES
 #pragma writes counts dropped lists
 #pragma reads oldDropped
-
-uvec4 entries[LIST / 4];
-
-void beginList()
-{
-    for (int i = 0; i < LIST / 4; ++i) entries[i] = uvec4(0u);
-}
-
-int foundBefore(int slot)
-{
-    return 0;  // fragments search all grids at once
-}
 
 void take(int slot)
 {
@@ -95,9 +100,10 @@ bool isListed(int slot)
     return known;
 }
 
-void keep(int slot, uint counted)
+// Keeps what was found.
+void finish(int slot)
 {
-    putCounts(slot, counted);
+    putCounts(slot, countFound(slot));
     putDropped(slot, oldDroppedAt(slot) + uint(max(found - LIST, 0)));
     newLists = entries;
 }
@@ -108,16 +114,6 @@ void keep(int slot, uint counted)
 layout(std430) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
 
 uniform bool last;  // no other search adds to what this one lists
-
-void beginList()
-{
-}
-
-// Of another search.
-int foundBefore(int slot)
-{
-    return int(countsAt(slot) & CONTACTS);
-}
 
 void take(int slot)
 {
@@ -131,8 +127,9 @@ bool isListed(int slot)
     return known;
 }
 
-void keep(int slot, uint counted)
+void finish(int slot)
 {
+    uint counted = countFound(slot);
     putCounts(slot, counted);
     bool takes = last && counted > 0u;
     while (takes) {
@@ -168,28 +165,4 @@ void meet(int slot)
         if (found < LIST) take(slot);
         ++found;
     }
-}
-
-// Whether a collider holds a sphere that its step has not held: of a rigid body one that is near, of a triangle one that it overlaps.
-bool isHeldByCollider(int sphere)
-{
-    if (!SPREADS || !COLLIDERS) return false;
-    float gap = collidersAt(sphere, 0).w;
-    if (BODIES && bodySphereAt(sphere).perMass > 0.0) return gap < 1e20;
-    return gap < -restingOverlap * ownRadius;
-}
-
-// Returns the slot's count.
-uint countFound(int slot)
-{
-    int sphere = sphereOf(slot);
-    uint counted = uint(found) | (isHeldByCollider(sphere) ? HELD : 0u);
-    bool responds = counted != 0u || (REMEMBERS && remembersAt(memoryOf(sphere)));
-    return counted | (responds ? RESPONDS : 0u);
-}
-
-// Keeps what was found.
-void finish(int slot)
-{
-    keep(slot, countFound(slot));
 }
