@@ -501,6 +501,21 @@ Pair pairAs(int slot, int other, ContactImpulse begun)
     leaveAsCome(pair, begun.anchor);
     return pair;
 }
+uniform samplerBuffer totals;
+vec4 totalsAt(int i, int k)
+{
+    return texelFetch(totals, 2 * (i) + (k));
+}
+uniform samplerBuffer earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, 2 * (i) + (k));
+}
+uniform samplerBuffer velocities;
+vec4 velocitiesAt(int i, int k)
+{
+    return texelFetch(velocities, 2 * (i) + (k));
+}
 struct Constraint {
     vec3 normal;
     float target;
@@ -508,10 +523,6 @@ struct Constraint {
     float lacks;
     float friction;
 };
-Constraint constraintFrom(vec4 normal, vec4 weights)
-{
-    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
-}
 const float overRelaxed = 1.3;
 const float pushSpeed = 1.0;
 float partingSpeed(float depth, float reach)
@@ -536,21 +547,6 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach);
     float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
     return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
-}
-uniform samplerBuffer totals;
-vec4 totalsAt(int i, int k)
-{
-    return texelFetch(totals, 2 * (i) + (k));
-}
-uniform samplerBuffer earlierTotals;
-vec4 earlierTotalsAt(int i, int k)
-{
-    return texelFetch(earlierTotals, 2 * (i) + (k));
-}
-uniform samplerBuffer velocities;
-vec4 velocitiesAt(int i, int k)
-{
-    return texelFetch(velocities, 2 * (i) + (k));
 }
 struct Moved {
     vec3 velocity;
@@ -578,25 +574,19 @@ void loadOwn(int slot)
     ownCount = effectiveCountOf(slot, own);
     ownMoved = movedAt(slot);
 }
-struct Push {
-    vec3 impulse;
-    float apart;
-    bool sticks;
-};
-Push solved(Constraint asked, Moved other, vec4 push, vec4 before)
+ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
 {
     vec3 n = asked.normal;
     vec3 wanted = pairImpulse(ownMoved.velocity - other.velocity, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
     vec3 taken = withinFriction(wanted, n, asked.friction);
     float lacks = asked.lacks - dot(ownMoved.move - other.move, n);
     float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
-    return Push(taken, max(apart, 0.0), taken == wanted);
+    return ContactImpulse(taken, max(apart, 0.0), taken == wanted, vec3(0.0), 0.0, PERSISTENT);
 }
 vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
 {
     if (asked.friction < 0.0) return vec4(0.0);
-    Push next = solved(asked, movedAt(other), push, before);
-    return firstPart(ContactImpulse(next.impulse, next.apart, next.sticks, vec3(0.0), 0.0, PERSISTENT));
+    return firstPart(solved(asked, movedAt(other), push, before));
 }
 uniform samplerBuffer normals;
 vec4 normalsAt(int i, int e)
@@ -608,9 +598,16 @@ vec4 weightsAt(int i, int e)
 {
     return texelFetch(weights, (e) * listStride + (i));
 }
+uniform samplerBuffer anchors;
+vec4 anchorsAt(int i, int e)
+{
+    return texelFetch(anchors, (e) * listStride + (i));
+}
 Constraint constraintOf(int slot, int e)
 {
-    return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
+    vec4 normal = normalsAt(ownRow(slot), e);
+    vec4 weights = weightsAt(ownRow(slot), e);
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
 }
 #define collidersAt(i, k) vec4(0)
 struct NearCollider {
@@ -658,15 +655,10 @@ void putAllNextVelocities(int i, vec4 values[2])
     for (int k = 0; k < 2; ++k) putNextVelocities(i, k, values[k]);
 }
 uniform float nextMomentum;
-vec4 solveEntry(int slot, int e, out vec3 normal)
+vec4 solveEntry(int slot, int e, Constraint asked)
 {
     int row = ownRow(slot);
-    if (inTextures) {
-        normal = normalsAt(row, e).xyz;
-        return impulsesAt(row, e);
-    }
-    Constraint asked = constraintOf(slot, e);
-    normal = asked.normal;
+    if (inTextures) return impulsesAt(row, e);
     vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
     putEarlierImpulses(row, e, next);
     return next;
@@ -677,8 +669,8 @@ vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
     vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
     Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
                                   near.friction);
-    Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
-    return vec4(next.impulse, next.apart);
+    ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
+    return vec4(next.impulse, next.multiplier);
 }
 void main()
 {
@@ -689,10 +681,10 @@ void main()
     vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
-        vec3 normal;
-        vec4 push = solveEntry(slot, e, normal);
+        Constraint asked = constraintOf(slot, e);
+        vec4 push = solveEntry(slot, e, asked);
         impulse += push.xyz;
-        shift += normal * abs(push.w);
+        shift += asked.normal * abs(push.w);
     }
     if (COLLIDERS) {
         int row = memoryRow(slot);

@@ -3,6 +3,7 @@
 //   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
 const bool applies = true;
 #include "contact/response/changes.glsl"
+#include "contact/response/vertices.glsl"
 #include "contact/slots.glsl"
 #include "contact/search/responding.glsl"
 #pragma reads sorted
@@ -11,29 +12,15 @@ const bool applies = true;
 uniform int partSpheres;
 uniform float substepTime;  // s
 
-layout(std430) buffer State { float state[]; };
-
 void add(int molecule, int vertex, Total change)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
-    vec3 v;
-    for (int c = 0; c < 3; ++c) {
-        int place = floatIndex(first, 3 * vertex + c);
-        state[place] += change.shift[c];
-        place = floatIndex(first + POSITION_ELEMENTS * BLOCK, 3 * vertex + c);
-        v[c] = state[place] + change.impulse[c];
-        state[place] = v[c];
-    }
+    vec3 place = stateVector(first, 0, vertex) + change.shift;
+    vec3 v = stateVector(first, POSITION_ELEMENTS, vertex) + change.impulse;
+    setStateVector(first, 0, vertex, place);
+    setMotion(first, vertex, v, length(v) < restSpeed, v * substepTime);
     int sphere = moleculeSphere(molecule) + vertex;
     putLoads(sphere, loadOf(sphere, change, stepTime));
-#ifdef HISTORY
-    // A slow vertex goes on as if it had moved so before; any other begins anew (fused/bdf2.glsl).
-    bool slow = length(v) < restSpeed;
-    for (int c = 0; c < 3; ++c) {
-        state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = slow ? v[c] * substepTime : NO_HISTORY;
-        state[floatIndex(first + 3 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = 0.0;
-    }
-#endif
 }
 
 #ifdef MANY

@@ -39,20 +39,14 @@ vec3 velocityBefore(int sphere)
     return uintBitsToFloat(inTextures ? motionsAt(slotOf(sphere)).xyz : sphereMotionsAt(sphere).xyz);
 }
 
-// Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
-// reaches none that is not known as near (contact/grid/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
-bool holds(int sphere, vec3 changed, float stepTime)
-{
-    int slot = slotOf(sphere);
-    return uintBitsToFloat(effectiveCountsAt(slot)) > 0.0 &&
-           length(velocityBefore(sphere) + changed) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
-}
-
-// Returns the load on a sphere's vertex over the next step (contact/arrays.txt).
+// Returns the load on a sphere's vertex over the next step (contact/arrays.txt). Contact alone holds it off the colliders if its body touches
+// others, and it is so slow that it reaches none that is not known as near (contact/grid/near_colliders.glsl).
 vec4 loadOf(int sphere, Total change, float stepTime)
 {
-    if (RIGID && holds(sphere, change.impulse, stepTime)) return vec4(change.load / stepTime, HELD_BY_CONTACT);
-    return vec4(change.load / stepTime, 0.0);
+    int slot = slotOf(sphere);
+    bool isHeld = RIGID && uintBitsToFloat(effectiveCountsAt(slot)) > 0.0 &&
+                  length(velocityBefore(sphere) + change.impulse) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
+    return vec4(change.load / stepTime, isHeld ? HELD_BY_CONTACT : AWAKE);
 }
 
 Total totalAt(int sphere)

@@ -17,7 +17,7 @@ int memory;  // of the own sphere
 bool remembers;
 int oldListed;
 
-void loadOld(int slot)
+void loadOwn(int slot)
 {
     loadSphere(slot);
     memory = memoryOf(sphereOf(slot));
@@ -73,21 +73,14 @@ ContactImpulse prepare(int slot, int other, out Pair pair)
 }
 
 #ifdef ENTRIES
-void main()
+#include "contact/response/entries.glsl"
+
+void makeEntry(int slot, int e)
 {
-    int slot = ownSlot(count);
-    int listed = listedOf(slot);
-    if (listed <= firstEntry) discard;
-    loadOld(slot);
-    for (int i = 0; i < ENTRIES_A_DRAW; ++i) {
-        int e = firstEntry + i;
-        ContactImpulse known = noImpulse(IMPACT);
-        Pair pair;
-        if (e < listed) known = prepare(slot, int(listsAt(slot, e)), pair);
-        putNextImpulses(slot, e, firstPart(known));
-        putAnchors(slot, e, secondPart(known));
-    }
-    putEntries();
+    Pair pair;
+    ContactImpulse known = prepare(slot, int(listsAt(slot, e)), pair);
+    putNextImpulses(slot, e, firstPart(known));
+    putAnchors(slot, e, secondPart(known));
 }
 #else
 #include "contact/grid/colliders.glsl"
@@ -146,7 +139,7 @@ void main()
 {
     int slot = ownSlot(count);
     if (slot < 0) return;
-    loadOld(slot);
+    loadOwn(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);
     vec3 shift = vec3(0.0);

@@ -2,59 +2,18 @@
 // place of `earlierImpulses`, which are `impulses` from then on, and the first (FIRST) works out the constraints for all. In fragments passes
 // before it work out the constraints (FIRST) and then the impulses (ENTRIES), some in each; this one works out the colliders' and the
 // sums.
-#if defined(FIRST) && defined(TEXTURES)
-#include "contact/response/constraint.glsl"
-#pragma reads anchors
-#pragma writes normals weights
-
-void main()
-{
-    int slot = ownSlot(count);
-    int listed = listedOf(slot);
-    if (listed <= firstEntry) discard;
-    loadSphere(slot);
-    for (int i = 0; i < ENTRIES_A_DRAW; ++i) {
-        int e = firstEntry + i;
-        putNormals(slot, e, vec4(0.0));
-        putWeights(slot, e, vec4(0.0));
-        if (e < listed) {
-            Constraint made = constrain(slot, int(listsAt(slot, e)), impulseFrom(vec4(0.0), anchorsAt(slot, e)));
-            putNormals(slot, e, vec4(made.normal, made.target));
-            putWeights(slot, e, vec4(made.weights, made.lacks, made.friction));
-        }
-    }
-    putEntries();
-}
-#elif defined(ENTRIES)
-uniform float momentum;
-#include "contact/response/iteration.glsl"
-#pragma reads normals weights
-#pragma writes nextImpulses
-
-void main()
-{
-    int slot = ownSlot(count);
-    int listed = listedOf(slot);
-    if (listed <= firstEntry) discard;
-    loadOwn(slot);
-    for (int i = 0; i < ENTRIES_A_DRAW; ++i) {
-        int e = firstEntry + i;
-        vec4 next = vec4(0.0);
-        if (e < listed)
-            next = solve(int(listsAt(slot, e)), constraintFrom(normalsAt(slot, e), weightsAt(slot, e)), impulsesAt(slot, e),
-                         earlierImpulsesAt(slot, e));
-        putNextImpulses(slot, e, next);
-    }
-    putEntries();
-}
-#else
 #pragma updates impulses earlierImpulses colliderImpulses earlierColliderImpulses
 #ifdef FIRST
 const float momentum = 0.0;
+#pragma updates normals weights when buffers
+#pragma writes normals weights
+#else
+uniform float momentum;
+#endif
 #include "contact/response/iteration.glsl"
-#pragma reads anchors
-#pragma updates normals weights
+#pragma reads normals weights anchors
 
+#ifdef FIRST
 Constraint constraintOf(int slot, int e)
 {
     int row = ownRow(slot);
@@ -64,32 +23,39 @@ Constraint constraintOf(int slot, int e)
     return made;
 }
 #else
-uniform float momentum;
-#include "contact/response/iteration.glsl"
-#pragma reads normals weights
-
-// The constraint of a contact.
 Constraint constraintOf(int slot, int e)
 {
-    return constraintFrom(normalsAt(ownRow(slot), e), weightsAt(ownRow(slot), e));
+    vec4 normal = normalsAt(ownRow(slot), e);
+    vec4 weights = weightsAt(ownRow(slot), e);
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
 }
 #endif
+
+#ifdef ENTRIES
+#ifndef FIRST
+#pragma writes nextImpulses
+#endif
+#include "contact/response/entries.glsl"
+
+void makeEntry(int slot, int e)
+{
+    Constraint asked = constraintOf(slot, e);
+#ifndef FIRST
+    putNextImpulses(slot, e, solve(int(listsAt(slot, e)), asked, impulsesAt(slot, e), earlierImpulsesAt(slot, e)));
+#endif
+}
+#else
 #include "contact/grid/colliders.glsl"
 #pragma reads warmStart
 #pragma writes nextTotals nextVelocities nextColliderImpulses
 
 uniform float nextMomentum;  // of the next iteration
 
-// Returns the first part of a contact's impulse after the iteration, and its normal.
-vec4 solveEntry(int slot, int e, out vec3 normal)
+// Returns the first part of a contact's impulse after the iteration.
+vec4 solveEntry(int slot, int e, Constraint asked)
 {
     int row = ownRow(slot);
-    if (inTextures) {
-        normal = normalsAt(row, e).xyz;
-        return impulsesAt(row, e);
-    }
-    Constraint asked = constraintOf(slot, e);
-    normal = asked.normal;
+    if (inTextures) return impulsesAt(row, e);
     vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
     putEarlierImpulses(row, e, next);  // these are the next from now on
     return next;
@@ -102,8 +68,8 @@ vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
     vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
     Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
                                   near.friction);
-    Push next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
-    return vec4(next.impulse, next.apart);
+    ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
+    return vec4(next.impulse, next.multiplier);
 }
 
 void main()
@@ -115,10 +81,10 @@ void main()
     vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
-        vec3 normal;
-        vec4 push = solveEntry(slot, e, normal);
+        Constraint asked = constraintOf(slot, e);
+        vec4 push = solveEntry(slot, e, asked);
         impulse += push.xyz;
-        shift += normal * abs(push.w);
+        shift += asked.normal * abs(push.w);
     }
     if (COLLIDERS) {
         int row = memoryRow(slot);

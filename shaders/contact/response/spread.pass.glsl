@@ -30,21 +30,14 @@ void put(int sphere, Total change)
     putVelocities(slot, 1, vec4(change.shift, 0.0));
 }
 
-void main()
+void spread(int molecule, int own)
 {
-    int lane = ownLaneOfGroup();
-    int molecule = oneForMolecule ? lane : lane / SPHERES;
-    int own = oneForMolecule ? 0 : lane - molecule * SPHERES;
     int first = moleculeSphere(molecule);
-    bool moves = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
-    while (moves) {
-        if (oneForMolecule) {
-            BodyTotal body = totalOfBody(molecule);
-            for (int k = 0; k < SPHERES; ++k) put(first + k, changeIn(body, molecule, k));
-        } else {
-            put(first + own, changeOf(molecule, own));
-        }
-        moves = false;
+    if (oneForMolecule) {
+        BodyTotal body = totalOfBody(molecule);
+        for (int k = 0; k < SPHERES; ++k) put(first + k, changeIn(body, molecule, k));
+    } else {
+        put(first + own, changeOf(molecule, own));
     }
 }
 #else
@@ -104,17 +97,23 @@ float effectiveSum(int moleculeSphere, int k)
     return most;
 }
 
+void spread(int molecule, int own)
+{
+    int first = firstSphere + molecule * SPHERES;
+    uint sum = floatBitsToUint(effectiveSum(first, own));
+    int end = oneForMolecule ? SPHERES : own + 1;
+    for (int k = own; k < end; ++k) putEffectiveCounts(slotOf(first + k), sum);
+}
+#endif
+
 void main()
 {
     int lane = ownLaneOfGroup();
-    int own = oneForMolecule ? 0 : lane % SPHERES;
-    int first = firstSphere + (oneForMolecule ? lane * SPHERES : lane - own);
-    bool isLeft = !rests(slotOf(first + own));  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
-    while (isLeft) {
-        uint sum = floatBitsToUint(effectiveSum(first, own));
-        int end = oneForMolecule ? SPHERES : own + 1;
-        for (int k = own; k < end; ++k) putEffectiveCounts(slotOf(first + k), sum);
+    int molecule = oneForMolecule ? lane : lane / SPHERES;
+    int own = oneForMolecule ? 0 : lane - molecule * SPHERES;
+    bool isLeft = !rests(slotOf(firstSphere + molecule * SPHERES + own));
+    while (isLeft) {  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
+        spread(molecule, own);
         isLeft = false;
     }
 }
-#endif

@@ -3,7 +3,7 @@
 // (contact/rest/wake.pass.glsl), another push than when it came to rest (contact/rest/load_change.pass.glsl), or a force: where one may have
 // changed, it is stepped in vain (fused/frame.glsl), and wakes if it gains another velocity than in the first step of its rest.
 #pragma updates loads restPoses restLoads
-#include "contact/grid/shape.glsl"
+#include "contact/response/vertices.glsl"
 #include "contact/flags.glsl"
 #include "contact/rest/states.glsl"
 #pragma reads cells marks sphereMotions
@@ -15,29 +15,6 @@ uniform float restTime;      // s
 uniform float wakeSpeed;     // m/s
 uniform bool probes;         // what rests has been stepped
 uniform bool wakes;          // all molecules of the group
-
-layout(std430) buffer State { float state[]; };
-
-vec3 stateVector(int first, int vertex)
-{
-    return vec3(state[floatIndex(first, 3 * vertex)], state[floatIndex(first, 3 * vertex + 1)],
-                state[floatIndex(first, 3 * vertex + 2)]);
-}
-
-void setStateVector(int first, int vertex, vec3 value)
-{
-    for (int c = 0; c < 3; ++c) state[floatIndex(first, 3 * vertex + c)] = value[c];
-}
-
-// Sets what the state has behind the positions: velocities, and the solver's history, with which it goes on or not.
-void setMotion(int first, int vertex, vec3 velocity, bool goesOn)
-{
-    setStateVector(first + POSITION_ELEMENTS * BLOCK, vertex, velocity);
-#ifdef HISTORY
-    setStateVector(first + 2 * POSITION_ELEMENTS * BLOCK, vertex, vec3(goesOn ? 0.0 : NO_HISTORY, 0.0, 0.0));
-    setStateVector(first + 3 * POSITION_ELEMENTS * BLOCK, vertex, vec3(0.0));
-#endif
-}
 
 void setState(int sphere, float who)
 {
@@ -61,16 +38,16 @@ void keepOrWake(int sphere, int first)
     bool isFirst = loadsAt(sphere).w == COME_TO_REST;
     float change = 0.0;  // of what its vertices gain, m/s
     for (int v = 0; v < VERTICES; ++v) {
-        vec3 gained = stateVector(first + POSITION_ELEMENTS * BLOCK, v);
+        vec3 gained = stateVector(first, POSITION_ELEMENTS, v);
         vec4 load = restLoadsAt(sphere + v);
         if (isFirst) putRestLoads(sphere + v, vec4(gained, load.w));
         if (!isFirst) change = max(change, distance(gained, load.xyz));
     }
     bool woken = isWoken(sphere) || (probes && change > wakeSpeed);
     for (int v = 0; v < VERTICES; ++v) {
-        vec3 place = stateVector(first, v);
-        vec3 gained = stateVector(first + POSITION_ELEMENTS * BLOCK, v);
-        setMotion(first, v, woken ? gained : vec3(0.0), !woken);
+        vec3 place = stateVector(first, 0, v);
+        vec3 gained = stateVector(first, POSITION_ELEMENTS, v);
+        setMotion(first, v, woken ? gained : vec3(0.0), !woken, vec3(0.0));
         if (woken) putRestPoses(sphere + v, vec4(place, 0.0));
     }
     setState(sphere, woken ? AWAKE : RESTING);
@@ -83,12 +60,12 @@ void rest(int molecule, int sphere, int first)
     bool isDead = cellsAt(slotOf(sphere)).w == 0u;
     if (wakes || isDead || hasFlag(sphereMotionsAt(sphere).w)) time = 0.0;
     for (int v = 0; v < VERTICES; ++v)
-        if (!(distance(stateVector(first, v), restPosesAt(sphere + v).xyz) <= restDistance)) time = 0.0;
+        if (!(distance(stateVector(first, 0, v), restPosesAt(sphere + v).xyz) <= restDistance)) time = 0.0;
     if (RELEASE && valueOf(oldRecords, molecule).w >= 0.0) time = 0.0;  // what hangs may tear off
     bool comesToRest = time >= restTime;
     for (int v = 0; v < VERTICES; ++v) {
-        if (time == 0.0) putRestPoses(sphere + v, vec4(stateVector(first, v), 0.0));
-        if (comesToRest) setMotion(first, v, vec3(0.0), true);
+        if (time == 0.0) putRestPoses(sphere + v, vec4(stateVector(first, 0, v), 0.0));
+        if (comesToRest) setMotion(first, v, vec3(0.0), true, vec3(0.0));
     }
     putRestPoses(sphere, vec4(restPosesAt(sphere).xyz, time));
     if (!comesToRest) return;

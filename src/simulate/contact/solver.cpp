@@ -13,7 +13,7 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
         store_ = data.stage("contact/response/store", "store");
         if (data.textures) {
             prepareEntries_ = data.stage("contact/response/prepare", "prepare_entries", {"ENTRIES"});
-            constrain_ = data.stage("contact/response/solve", "constrain", {"FIRST"});
+            constrain_ = data.stage("contact/response/solve", "constrain", {"FIRST", "ENTRIES"});
             solveEntries_ = data.stage("contact/response/solve", "solve_entries", {"ENTRIES"});
         } else {
             solveFirst_ = data.stage("contact/response/solve", "solve_first", {"FIRST"});
