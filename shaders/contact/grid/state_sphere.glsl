@@ -11,29 +11,22 @@ StateSphere sphereOfState(int molecule, int k)
     vec4 record = valueOf(oldRecords, molecule);
     bool released = record.w < 0.0;
     int first = firstElement(molecule, STATE_ELEMENTS);
-    vec4 shape = shapeOf(k);
     StateSphere own;
     own.anchor = record.xyz;
     own.lives = true;
     own.fresh = false;
-    if (TRIANGLES) {
-        bool isVertex = k < VERTICES;
-        ivec3 corners = isVertex ? ivec3(k) : ivec3(shape.xyz);
-        vec3 position = (packedVertex(oldState, first, 0, corners.x) + packedVertex(oldState, first, 0, corners.y) +
-                         packedVertex(oldState, first, 0, corners.z)) / 3.0;
-        vec3 velocity = (packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) +
-                         packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
-                         packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
+    bool isVertex = !TRIANGLES || k < VERTICES;
+    ivec3 corners = isVertex ? ivec3(k) : ivec3(shapeOf(k).xyz);
+    own.position = packedVertex(oldState, first, 0, corners.x);
+    own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, corners.x);
+    own.weight = weightOf(shapeOf(corners.x), released);
+    if (!isVertex) {
+        own.position = (own.position + packedVertex(oldState, first, 0, corners.y) +
+                        packedVertex(oldState, first, 0, corners.z)) / 3.0;
+        own.velocity = (own.velocity + packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
+                        packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
         // an impulse on the middle is a third on each corner
-        float weight = (weightOf(shapeOf(corners.x), released) + weightOf(shapeOf(corners.y), released) +
-                        weightOf(shapeOf(corners.z), released)) / 9.0;
-        own.position = isVertex ? packedVertex(oldState, first, 0, corners.x) : position;
-        own.velocity = isVertex ? packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) : velocity;
-        own.weight = isVertex ? weightOf(shape, released) : weight;
-    } else {
-        own.position = packedVertex(oldState, first, 0, k);
-        own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, k);
-        own.weight = weightOf(shape, released);
+        own.weight = (own.weight + weightOf(shapeOf(corners.y), released) + weightOf(shapeOf(corners.z), released)) / 9.0;
     }
     float scale = 1.0;
 #ifdef CONSTANTS

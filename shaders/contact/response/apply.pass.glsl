@@ -42,7 +42,7 @@ void main()
     if (lane < 0 || lane >= partSpheres) return;
     int molecule = lane / SPHERES;
     int vertex = lane - molecule * SPHERES;
-    Total change = noTotal();
+    Total change = noTotal;
     add(change, Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, warmStartAt(firstSphere + lane).xyz),
         weightOf(shapeOf(vertex), texelFetch(oldRecords, molecule).w < 0.0));
     add(molecule, vertex, change);

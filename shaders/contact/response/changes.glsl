@@ -21,10 +21,7 @@ struct Total {
     vec3 load;     // N s, over the next step
 };
 
-Total noTotal()
-{
-    return Total(vec3(0.0), vec3(0.0), vec3(0.0));
-}
+const Total noTotal = Total(vec3(0.0), vec3(0.0), vec3(0.0));
 
 // Adds so large a part of b.
 void add(inout Total a, Total b, float part)
@@ -52,7 +49,7 @@ vec4 loadOf(int sphere, Total change, float stepTime)
 Total totalAt(int sphere)
 {
     int slot = slotOf(sphere);
-    if (countsAt(slot) == 0u) return noTotal();
+    if (countsAt(slot) == 0u) return noTotal;
     Total total = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
     if (applies) {
         total.load = warmStartAt(inTextures ? slot : sphere).xyz;
@@ -99,7 +96,7 @@ Total changeOfVertex(int vertex, int first, bool released)
     vec4 shape = shapeOf(vertex);
     Total sum = totalAt(first + vertex);
     for (int i = 0; i < int(shape.w); ++i) add(sum, totalAt(first + int(shapeOf(int(shape.z) + i).x)), 1.0 / 3.0);
-    Total change = noTotal();
+    Total change = noTotal;
     add(change, sum, weightOf(shape, released));
     return change;
 }
@@ -112,7 +109,7 @@ Total changeOf(int molecule, int k)
     bool released = valueOf(oldRecords, molecule).w < 0.0;
     vec4 shape = shapeOf(k);
     if (k < VERTICES) return changeOfVertex(k, first, released);
-    Total change = noTotal();
+    Total change = noTotal;
     for (int c = 0; c < 3; ++c) add(change, changeOfVertex(int(shape[c]), first, released), 1.0 / 3.0);
     return change;
 }

@@ -19,7 +19,7 @@ void main()
     int sphere = firstNumber + lane;
     int molecule = lane / SPHERES;
     int vertex = lane - molecule * SPHERES;
-    Total change = noTotal();
+    Total change = noTotal;
     if (vertex < VERTICES) change = changeOf(molecule, vertex);
     bool any = change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0);
     putGains(sphere, 0, vec4(change.impulse, any ? 1.0 : 0.0));

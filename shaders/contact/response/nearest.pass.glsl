@@ -4,13 +4,10 @@
 #include "contact/response/pair.glsl"
 #pragma writes totals
 
-struct Nearest {
-    vec3 impulse;  // kg m/s
-    vec3 shift;    // kg m
-};
-
-Nearest respondToNearest(int slot)
+void main()
 {
+    int slot = ownSlot(count);
+    if (slot < 0) return;
     Sphere own = sphereAt(slot);
     int nearest = slot;
     float least = 1e30;
@@ -31,14 +28,6 @@ Nearest respondToNearest(int slot)
     vec3 impulse = w > 0.0 ? pairImpulse(u, contact.normal, target, vec3(0.0), vec2(w)) : vec3(0.0);
     impulse = withinFriction(impulse, contact.normal, material.y);
     vec3 apart = contact.normal * (w > 0.0 ? contact.depth / w : 0.0);
-    return Nearest(impulse, contact.impact ? impulse * contact.since : apart);
-}
-
-void main()
-{
-    int slot = ownSlot(count);
-    if (slot < 0) return;
-    Nearest response = respondToNearest(slot);
-    putTotals(slot, 0, vec4(response.impulse, 0.0));
-    putTotals(slot, 1, vec4(response.shift, 0.0));
+    putTotals(slot, 0, vec4(impulse, 0.0));
+    putTotals(slot, 1, vec4(contact.impact ? impulse * contact.since : apart, 0.0));
 }

@@ -109,12 +109,7 @@ void countIn(vec3 normal)
     contacts = withContact(contacts, normal, own.weight / max(weightsOf(own, ownBody, normal), vec2(1e-30)));
 }
 
-// Of a collider in the last step.
-vec3 oldNormal(int slot, int k)
-{
-    return inTextures ? oldCollidersAt(sphereOf(slot), 2 * k).xyz : oldNormalsAt(sphereOf(slot), k).xyz;
-}
-
+// Of a collider, in the last step.
 struct ColliderImpulse {
     vec4 push;  // xyz impulse, N s; w how far it pushes the sphere off, kg m
     vec3 normal;
@@ -156,7 +151,10 @@ void main()
     if (COLLIDERS) {
         vec4 part = inTextures ? vec4(vec3(acted.w), 1.0) : vec4(1.0);  // of what they pushed, how much is remembered
         ColliderImpulse old[MOST_COLLIDERS];
-        for (int k = 0; k < MOST_COLLIDERS; ++k) old[k] = ColliderImpulse(colliderImpulsesAt(memory, k) * part, oldNormal(slot, k));
+        for (int k = 0; k < MOST_COLLIDERS; ++k) {
+            vec4 normal = inTextures ? oldCollidersAt(sphereOf(slot), 2 * k) : oldNormalsAt(memory, k);
+            old[k] = ColliderImpulse(colliderImpulsesAt(memory, k) * part, normal.xyz);
+        }
         vec4 pushes[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
             NearCollider near = colliderNear(sphereOf(slot), k);

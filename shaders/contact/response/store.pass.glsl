@@ -23,12 +23,6 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
     return known.sticks ? -slip * back : vec3(0.0);
 }
 
-// Returns which part of what colliders push the next step begins with. Both sums are of the impulses' lengths, N s.
-float rememberedOfColliders(float start, float pushed)
-{
-    return own.weight > 0.0 ? min(1.0, mostRemembered(start, pushed, own.weight) / max(pushed, 1e-30)) : 0.0;
-}
-
 void main()
 {
     int slot = ownSlot(count);
@@ -40,7 +34,7 @@ void main()
     vec4 total = totalsAt(slot, 0);
     vec3 shift = totalsAt(slot, 1).xyz;
     vec3 keeps = vec3(0.0);
-    float part = 1.0;  // of what colliders push
+    float part = 1.0;  // of what colliders push, with which the next step begins
     bool isHeld = false;
     for (int e = 0; e < listed; ++e) {
         int other = int(listsAt(slot, e));
@@ -53,9 +47,9 @@ void main()
     }
     if (COLLIDERS) {
         int memory = memoryRow(slot);
-        float pushed = 0.0;
+        float pushed = 0.0;  // N s, the sum of their impulses' lengths
         for (int k = 0; k < MOST_COLLIDERS; ++k) pushed += length(colliderImpulsesAt(memory, k).xyz);
-        part = rememberedOfColliders(total.w, pushed);
+        part = own.weight > 0.0 ? min(1.0, mostRemembered(total.w, pushed, own.weight) / max(pushed, 1e-30)) : 0.0;
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
             vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
             keeps += push.xyz;

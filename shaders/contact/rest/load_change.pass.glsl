@@ -56,16 +56,13 @@ bool renew(int slot, int sphere)
     bool hasLost = false;
     int kept = 0;
     for (int e = 0; e < rememberedBy(sphere); ++e) {
-        uint partner = partnersAt(sphere, e);
         int other = partnerSlot(sphere, e);
         bool stays = rests(other);
         hasLost = hasLost || !(stays || isListed(slot, other));
         if (!stays) continue;
-        vec4 first = keptImpulsesAt(sphere, e);
-        vec4 second = keptAnchorsAt(sphere, e);
-        putPartners(sphere, kept, partner);
-        putKeptImpulses(sphere, kept, first);
-        putKeptAnchors(sphere, kept, second);
+        putPartners(sphere, kept, partnersAt(sphere, e));
+        putKeptImpulses(sphere, kept, keptImpulsesAt(sphere, e));
+        putKeptAnchors(sphere, kept, keptAnchorsAt(sphere, e));
         ++kept;
     }
     for (int e = 0; e < listedOf(slot); ++e) {
