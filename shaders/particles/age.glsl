@@ -27,6 +27,7 @@ bool hasTouched() { return false; }
 void recordDeath(int molecule) {}
 #else
 layout(std430) buffer FreeBits { uint freeBits[]; };
+uniform int firstWord;  // of the part
 
 #ifdef DEATHS
 layout(std430) buffer DiedBits { uint diedBits[]; };
@@ -39,7 +40,7 @@ void recordDied(int word, uint bit) {}
 void recordDeath(int molecule)
 {
     if (!isFirstLane()) return;
-    int word = molecule >> 5;
+    int word = firstWord + (molecule >> 5);
     uint bit = 1u << (uint(molecule) & 31u);
     atomicOr(freeBits[word], bit);
     recordDied(word, bit);

@@ -54,8 +54,8 @@ BirthPasses::BirthPasses(gpu::Context& context, const Plan& plan, const Tables& 
 
 std::vector<std::unique_ptr<BirthPasses::Living>> BirthPasses::makeGroups(
     const std::vector<glm::ivec4>& parts, Form form) const {
-    // ranges of arrays begin with a row of texels, or where a storage block may be bound on any device
-    const int apart = form == Form::textures ? stateWidth : 64;
+    // ranges of arrays begin with a row of texels
+    const int apart = form == Form::textures ? stateWidth : 1;
     std::vector<std::unique_ptr<Living>> out(plan_->groups.size());
     int words = 0, deaths = 0, partCount = 0;
     for (size_t g = 0; g < plan_->groups.size(); ++g) {

@@ -32,12 +32,10 @@ void BufferBirths::runStep(const Program& program, size_t group, size_t range) c
     const Living& living = *groups_[group];
     const GroupBuffers::Part& part = (*state_)[group].parts()[range];
     (*state_)[group].bindNew(program, part);
-    // a part has whole words of bits (GroupBuffers)
-    const size_t first = size_t(living.firstWord) + size_t(part.first) / 32;
-    const size_t words = (size_t(part.count) + 31) / 32;
     for (const auto& [block, bits] : {std::pair("FreeBits", "free"), std::pair("DiedBits", "died")})
-        if (program.declares(block))
-            program.storage(block, arrays_.buffer(bits), first * sizeof(uint32_t), words * sizeof(uint32_t));
+        if (program.declares(block)) program.storage(block, arrays_.buffer(bits));
+    // a part has whole words of bits (GroupBuffers)
+    program.set("firstWord", living.firstWord + part.first / 32);
     setAge(program, living);
     if (living.onGpu())
         return program.dispatchIndirect(

@@ -78,7 +78,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
     const auto alignment = size_t(std::max({1, info.textureBufferAlignment, info.storageBufferAlignment}));
     // molecules whose records end on a multiple of the alignment; a block of the state always does
     size_t unit = std::lcm(size_t(layout().lanes()), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
-    if (layout().life) unit = std::lcm(unit, std::max<size_t>(32, 8 * alignment));  // and a bit each
+    if (layout().life) unit = std::lcm(unit, size_t(32));  // whole words of bits
     const size_t elements = size_t(layout().stateElements());
     size_t most =
         std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /
