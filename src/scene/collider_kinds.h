@@ -4,12 +4,12 @@
 // double-precision twin (reference/colliders.cpp). docs/adding-a-force.md says how to add one. SI units. Of a
 // shape that is solid all the way down or has no end the functions say nothing:
 //
-//   reach     how far its points are at most from a point of the frame in which it is given. A vertex could
-//   cross
-//             what has one within a substep, and it is looked for along the vertex's way.
-//   support   how far it goes along a unit vector, from the origin: the largest dot product with one of its
-//   points girth     the radius of the widest part that has to get through a gap when it does cost      of a
-//   look for contact with it
+// - reach: how far its points are at most from a point of the frame in which it is given. A vertex could
+//   cross what has one within a substep, and it is looked for along the vertex's way.
+// - support: how far it goes along a unit vector, from the origin: the largest dot product with one of its
+//   points.
+// - girth: the radius of the widest part that has to get through a gap when it does.
+// - cost: of a look for contact with it.
 #pragma once
 
 #include <algorithm>
