@@ -188,7 +188,8 @@ void Fused::computeNormals(gpu::PassTimers& timers) {
     for (size_t g = 0; g < groups_.size(); ++g) {
         if (groups_[g].normals == nullptr) continue;
         groups_[g].normals->use();
-        for (size_t r = 0; r < state(g).ranges().size(); ++r) {
+        const size_t ranges = state(g).ranges().size();
+        for (size_t r = 0; r < ranges; ++r) {
             bind(*groups_[g].normals, g, r);
             state(g).run(*groups_[g].normals, r, PackedState::Output::normals);
         }

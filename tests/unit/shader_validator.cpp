@@ -84,7 +84,7 @@ void Validator::addContact(const std::string& pass, const ContactFacts& facts, c
     holds = facts.names();
     for (const auto& [name, text] : group.files())
         generated[name] = text;
-    for (const Defines& more : {facts.constants(), group.constants()})
+    for (const Defines& more : {facts.defines(), group.defines()})
         defines.insert(defines.end(), more.begin(), more.end());
     defines.insert(defines.end(), {"LIST 24", "NEIGHBORS 4", "AHEAD 4", concat("NEAR ", ContactPlan::near),
                                    concat("MOST_COLLIDERS ", ContactPlan::mostColliders)});

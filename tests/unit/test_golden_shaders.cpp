@@ -46,7 +46,7 @@ TEST_CASE("a pass of contact has the text that is kept, in both forms", "[golden
     const auto solve = [](Form form, const std::vector<std::string>& more, const char* header) {
         const ContactFacts facts = {.textures = form == Form::textures, .remembers = true};
         const gpu::ArrayTable table(shaders + "/contact/arrays.txt", form, facts.names());
-        std::vector<std::string> defines = facts.constants();
+        std::vector<std::string> defines = facts.defines();
         defines.insert(defines.end(), {"LIST 24", "MOST_COLLIDERS 3"});
         defines.insert(defines.end(), more.begin(), more.end());
         return gpu::resolveShader(shaders, "contact/response/solve.pass.glsl", defines, {}, header, &table)

@@ -116,24 +116,28 @@ gpu::ProgramOptions ContactData::options(const std::string& file, const std::str
     };
     define(counted, concat("CELL_TILE ", cellTile));
     define(counted, concat("LINE_WORDS ", lineWords));
-    for (const std::string& fact : constants())
+    for (const std::string& fact : ContactFacts::defines())
         out.defines.push_back(fact);
     return out;
 }
 
-Program ContactData::stage(const std::string& file, const std::string& name,
-                           const std::vector<std::string>& defines) const {
-    gpu::ProgramOptions made = options(file, name);
+static std::string stageName(const std::string& file, const std::string& name) {
+    return name.empty() ? file.substr(file.rfind('/') + 1) : name;
+}
+
+Program ContactData::stage(const std::string& file, const std::vector<std::string>& defines,
+                           const std::string& name) const {
+    gpu::ProgramOptions made = options(file, stageName(file, name));
     made.defines.push_back(concat("NEIGHBORS ", contact->settings.neighbors));
     made.defines.push_back(concat("NEAR ", ContactPlan::near));
     made.defines.insert(made.defines.end(), defines.begin(), defines.end());
     return Program(*context, made);
 }
 
-Program ContactData::groupStage(const ContactGroup& group, const std::string& file, const std::string& name,
-                                const std::vector<std::string>& defines) const {
+Program ContactData::groupStage(const ContactGroup& group, const std::string& file,
+                                const std::vector<std::string>& defines, const std::string& name) const {
     const GroupPlan& groupPlan = planOf(group);
-    gpu::ProgramOptions made = options(file, concat(name, " of ", groupPlan.name));
+    gpu::ProgramOptions made = options(file, concat(stageName(file, name), " of ", groupPlan.name));
     const ContactGroupFacts facts = {.rigid = isRigid(group),
                                      .triangles = group.triangles,
                                      .pins = groupPlan.needs.pins,
@@ -142,7 +146,7 @@ Program ContactData::groupStage(const ContactGroup& group, const std::string& fi
                                      .severalColliders = plan->jointContact,
                                      .vertexTextures = textures && !fused};
     for (const std::vector<std::string>& more :
-         {state->defines(group.group), group.defines(), facts.constants(), defines})
+         {state->defines(group.group), group.defines(), facts.defines(), defines})
         made.defines.insert(made.defines.end(), more.begin(), more.end());
     made.defines.push_back(concat("VERTICES ", groupPlan.vertexCount));
     made.defines.push_back(concat("SPHERES ", group.spheresOf));

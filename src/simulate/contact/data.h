@@ -42,12 +42,13 @@ class ContactData : public ContactFacts {
     // Spheres that a context holds in buffers, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
-    // A stage of all spheres, and of one group: FILE.pass.glsl below the shaders' root, with the defines that
-    // say which stage of that file it is.
-    gpu::Program stage(const std::string& file, const std::string& name,
-                       const std::vector<std::string>& defines = {}) const;
-    gpu::Program groupStage(const ContactGroup& group, const std::string& file, const std::string& name,
-                            const std::vector<std::string>& defines = {}) const;
+    // A stage of all spheres, and of one group: FILE.pass.glsl below the shaders' root. Where a file has
+    // several stages, the defines say which it is, and `name` what it is called; else it is called as its
+    // file.
+    gpu::Program stage(const std::string& file, const std::vector<std::string>& defines = {},
+                       const std::string& name = {}) const;
+    gpu::Program groupStage(const ContactGroup& group, const std::string& file,
+                            const std::vector<std::string>& defines = {}, const std::string& name = {}) const;
     const gpu::Program& use(const gpu::Program& program) const { return arrays.use(program); }
     // With what all stages of the response are given.
     const gpu::Program& withResponse(const gpu::Program& program, const ContactStep& times) const;

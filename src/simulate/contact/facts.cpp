@@ -36,7 +36,7 @@ std::set<std::string> ContactFacts::names() const {
     return out;
 }
 
-std::vector<std::string> ContactFacts::constants() const {
+std::vector<std::string> ContactFacts::defines() const {
     std::vector<std::string> out = {constant("REMEMBERS", remembers), constant("RESTS", rests),
                                     constant("STAGGERS", staggers),   constant("SWEEPS", sweeps),
                                     constant("SELF", self),           constant("SPREADS", spreads),
@@ -45,7 +45,7 @@ std::vector<std::string> ContactFacts::constants() const {
     return out;
 }
 
-std::vector<std::string> ContactGroupFacts::constants() const {
+std::vector<std::string> ContactGroupFacts::defines() const {
     std::vector<std::string> out = {constant("RIGID", rigid), constant("TRIANGLES", triangles),
                                     constant("PINS", pins), constant("RELEASE", release)};
     if (triangles || rigid) out.emplace_back("MANY");

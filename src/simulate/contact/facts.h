@@ -21,8 +21,8 @@ struct ContactFacts {
     bool spreads = false;  // the contacts of one sphere move others
     bool colliders = false, rigid = false;
 
-    std::set<std::string> names() const;         // of those that hold
-    std::vector<std::string> constants() const;  // defines
+    std::set<std::string> names() const;       // of those that hold
+    std::vector<std::string> defines() const;  // true or false, and switches
 };
 
 // The facts of one group of them.
@@ -31,7 +31,7 @@ struct ContactGroupFacts {
     bool collides = false;          // its spheres look for colliders as they are made
     bool severalColliders = false;  // of the scene, or one that moves or is thin
     bool vertexTextures = false;    // the state has a texel a vertex
-    std::vector<std::string> constants() const;
+    std::vector<std::string> defines() const;
     std::map<std::string, std::string> files() const;
 };
 

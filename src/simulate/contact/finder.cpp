@@ -11,16 +11,14 @@ ContactFinder::ContactFinder(ContactData& data) : data_(&data) {
     const std::string ahead = concat("AHEAD ", data.counted ? 4 : 1);
     if (!isExact) {
         const std::vector<std::string> second = {"SECOND_GRID"}, none;
-        find_ = data.stage("contact/search/neighbors", "neighbors",
-                           data.staggers && data.textures ? second : none);
-        if (data.staggers && !data.textures)
-            findStaggered_ = data.stage("contact/search/neighbors", "neighbors", second);
+        find_ = data.stage("contact/search/neighbors", data.staggers && data.textures ? second : none);
+        if (data.staggers && !data.textures) findStaggered_ = data.stage("contact/search/neighbors", second);
     }
-    if (isExact) find_ = data.stage("contact/search/find", data.rests ? "find_awake" : "find", {ahead});
+    if (isExact) find_ = data.stage("contact/search/find", {ahead}, data.rests ? "find_awake" : "find");
     if (!data.rests) return;
-    findResting_ = data.stage("contact/search/find", "find_marked", {ahead, "MARKED"});
-    awake_ = data.stage("contact/rest/awake", "awake");
-    wake_ = data.stage("contact/rest/wake", "wake");
+    findResting_ = data.stage("contact/search/find", {ahead, "MARKED"}, "find_marked");
+    awake_ = data.stage("contact/rest/awake");
+    wake_ = data.stage("contact/rest/wake");
 }
 
 void ContactFinder::find(const Program& program, const ContactStep& times) {

@@ -10,21 +10,21 @@ ContactGrid::ContactGrid(ContactData& data) : data_(&data) {
         for (size_t i = 0; i < grids; ++i)
             networks_.emplace_back(*data.context, NetworkSort::Kind::bitonic, size_t(data.contact->spheres),
                                    2 << rowBits(data.contact->cells()), NetworkSort::Ties::byIndex);
-        keys_ = data.stage("contact/grid/keys", "keys");
-        starts_ = data.stage("sort/starts", "starts");
-        slots_ = data.stage("contact/grid/keys", "slots", {"SLOTS"});
+        keys_ = data.stage("contact/grid/keys");
+        starts_ = data.stage("sort/starts");
+        slots_ = data.stage("contact/grid/keys", {"SLOTS"}, "slots");
     } else if (data.counted) {
-        starts_ = data.stage("contact/grid/starts", "starts", {"LANES 256"});
-        members_ = data.stage("contact/grid/starts", "members", {"MEMBERS"});
+        starts_ = data.stage("contact/grid/starts", {"LANES 256"});
+        members_ = data.stage("contact/grid/starts", {"MEMBERS"}, "members");
     } else {
         radix_.emplace(*data.context, data.padded);
     }
-    order_ = data.stage("contact/grid/order", "order");
+    order_ = data.stage("contact/grid/order");
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
         if (data.collides(group) && data.textures)
-            made.colliders = data.groupStage(group, "contact/grid/spheres", "colliders", {"COLLIDES"});
-        made.spheres = data.groupStage(group, "contact/grid/spheres", "spheres");
+            made.colliders = data.groupStage(group, "contact/grid/spheres", {"COLLIDES"}, "colliders");
+        made.spheres = data.groupStage(group, "contact/grid/spheres");
     }
 }
 

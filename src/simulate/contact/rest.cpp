@@ -12,9 +12,9 @@ ContactRest::ContactRest(ContactData& data) : data_(&data) {
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
         if (data.contact->mayRest(data.planOf(group)))
-            made.rest = data.groupStage(group, "contact/rest/rest", "rest");
+            made.rest = data.groupStage(group, "contact/rest/rest");
     }
-    loadChange_ = data.stage("contact/rest/load_change", "load_change");
+    loadChange_ = data.stage("contact/rest/load_change");
 }
 
 void ContactRest::begin(const Frame& frame) {

@@ -8,26 +8,26 @@ using gpu::Program;
 
 ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
     if (data.remembers) {
-        prepare_ = data.stage("contact/response/prepare", "prepare");
-        solve_ = data.stage("contact/response/solve", "solve");
-        store_ = data.stage("contact/response/store", "store");
+        prepare_ = data.stage("contact/response/prepare");
+        solve_ = data.stage("contact/response/solve");
+        store_ = data.stage("contact/response/store");
         if (data.textures) {
-            prepareEntries_ = data.stage("contact/response/prepare", "prepare_entries", {"ENTRIES"});
-            constrain_ = data.stage("contact/response/solve", "constrain", {"FIRST", "ENTRIES"});
-            solveEntries_ = data.stage("contact/response/solve", "solve_entries", {"ENTRIES"});
+            prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"}, "prepare_entries");
+            constrain_ = data.stage("contact/response/solve", {"FIRST", "ENTRIES"}, "constrain");
+            solveEntries_ = data.stage("contact/response/solve", {"ENTRIES"}, "solve_entries");
         } else {
-            solveFirst_ = data.stage("contact/response/solve", "solve_first", {"FIRST"});
+            solveFirst_ = data.stage("contact/response/solve", {"FIRST"}, "solve_first");
         }
     } else {
-        nearest_ = data.stage("contact/response/nearest", "nearest");
+        nearest_ = data.stage("contact/response/nearest");
     }
     for (const ContactGroup& group : data.contact->groups) {
         Group& made = groups_.emplace_back();
-        const std::string apply = data.textures ? "gains" : "apply";
-        made.apply = data.groupStage(group, concat("contact/response/", apply), apply);
+        made.apply =
+            data.groupStage(group, data.textures ? "contact/response/gains" : "contact/response/apply");
         if (!data.spreads) continue;
-        made.effectiveSum = data.groupStage(group, "contact/response/spread", "effective_sum");
-        made.velocities = data.groupStage(group, "contact/response/spread", "velocities", {"VELOCITIES"});
+        made.effectiveSum = data.groupStage(group, "contact/response/spread", {}, "effective_sum");
+        made.velocities = data.groupStage(group, "contact/response/spread", {"VELOCITIES"}, "velocities");
     }
 }
 
