@@ -40,6 +40,30 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
                        impact ? touchSpeed : dot(direction, u), impact);
 }
 
+// The next impact of two spheres of which both have moved straight for the last `time` s, to be d apart now.
+struct PairImpact {
+    vec3 normal;   // unit, from the other sphere to this one, when they touch
+    float since;   // s, since then
+    float speed;   // m/s, along the normal; negative: they approach
+    bool happens;  // within that time; else the others say nothing
+};
+
+// What overlaps when that time begins, and approaches, has its impact then. Exchanged, the two give the same to the bit.
+PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, float side)
+{
+    vec3 start = d - u * time;
+    float along = dot(start, u);
+    float gap = dot(start, start) - reach * reach;
+    float under = along * along - dot(u, u) * gap;
+    float wait = gap > 0.0f ? gap / max(sqrt(max(under, 0.0f)) - along, 1e-30f) : 0.0f;
+    vec3 touch = start + u * wait;
+    float apart = sqrt(dot(touch, touch));
+    vec3 normal = apart > 1e-6f * reach ? touch / apart : vec3(0.0f, side, 0.0f);
+    float speed = dot(normal, u);
+    bool happens = along < 0.0f && under > 0.0f && wait <= time && speed < -restSpeed;
+    return PairImpact(normal, max(time - wait, 0.0f), speed, happens);
+}
+
 // Returns the impulse (N s) that would bring a contact nearer to its velocity afterwards: `target` along the unit normal n, and
 // none across it.
 //   u        m/s, of the sphere relative to the other, as all impulses so far make it

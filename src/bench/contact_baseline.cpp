@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/contact_baseline_grid.h"
+#include "bench/contact_baseline_impacts.h"
 #include "compile/contact_plan.h"
 
 namespace shoal::bench {
@@ -13,11 +14,6 @@ using glm::vec3;
 namespace {
 
 constexpr float frictionStep = 0.4f;  // shaders/physics/pair.glsl
-
-struct Motion {
-    vec3 velocity;
-    float weight;
-};
 
 // A contact with another slot, in the list of the slot that it acts on.
 struct Contact {
@@ -33,7 +29,7 @@ struct Contact {
     float earlierApart = 0;  // and an iteration before
     bool sticks = false;     // friction holds all that it was asked to
     bool takesPart = false;  // it is more than listed
-    float since = 0;         // s, since the impact; 0 where they rest
+    int bounces = 0;         // steps up to this with an impact
     float mass = 0;          // kg, that both together put against an impulse, as their contacts share it
     float held = 0;          // N s, what it remembers
     vec3 anchor{0};          // m, from the other's centre where they began to stick
@@ -46,6 +42,7 @@ struct Kept {
     vec3 impulse;
     vec3 anchor;
     float apart;
+    int bounces;
 };
 
 // A sphere's contacts leave this for the next step.
@@ -87,7 +84,7 @@ struct ContactBaseline::Data {
           grid(int(weights.size()), count, float(ContactPlan::near) * reach, threads),
           pieces(size_t(threadCount)),
           memory(spheres),
-          motions(spheres),
+          impacts(spheres, reach),
           counts(spheres),
           going(spheres),
           newGoing(spheres) {}
@@ -102,8 +99,8 @@ struct ContactBaseline::Data {
     GroupState state;
     uint32_t number = 1;         // of the step
     std::vector<Memory> memory;  // by sphere
+    ContactImpacts impacts;
     // By slot, set where it takes part.
-    std::vector<Motion> motions;
     std::vector<float> counts;  // of contacts, as they act on it together
     std::vector<Going> going, newGoing;
 
@@ -131,34 +128,29 @@ struct ContactBaseline::Data {
             // what is remembered has to be taken back, even where nothing is touched any more
             if (begin == end && known.begin == known.end) continue;
             piece.active.push_back({int(slot), begin, end, known.load, vec3(0), vec3(0)});
-            motions[slot] = {state.velocities[sphere], weights[sphere % weights.size()]};
+            impacts.spheres[slot] = {grid.position(int(slot)), state.velocities[sphere],
+                                     weights[sphere % weights.size()]};
         }
         piece.contacts.resize(piece.found.size());
     }
 
-    // Sets the geometry of a contact and, unless it is `known` from the last step, an impact since then.
-    void meet(Contact& contact, const vec3& d, const vec3& u, bool known, bool isFirst,
-              const ContactBaselineStep& step) const {
-        const float squared = glm::dot(d, d), apart = std::sqrt(squared);
-        contact.normal = apart > 1e-6f * reach ? d / apart : vec3(0, isFirst ? 1.0f : -1.0f, 0);
-        contact.anchor = d;
-        contact.lacks = reach - apart;
-        contact.takesPart = known || apart < reach || glm::dot(contact.normal, u) >= -step.restSpeed;
-        if (known) return;
-        const float along = glm::dot(d, u), fast = glm::dot(u, u), inside = reach * reach - squared;
-        const float under = along * along + fast * inside;
-        if (inside <= 0 && (along <= 0 || under <= 0)) return;
-        const float root = std::sqrt(under);  // |d - u t| = reach
-        const float since =
-            along < 0 ? inside / std::max(root - along, 1e-30f) : (along + root) / std::max(fast, 1e-30f);
-        const vec3 touch = (d - u * since) / reach;
-        const float speed = glm::dot(touch, u);
-        if ((since - step.stepTime) * std::sqrt(fast) > 1e-4f * reach || speed >= -step.restSpeed) return;
-        contact.normal = touch;
-        contact.anchor = touch * reach;
-        contact.since = since;
-        contact.target = -step.restitution * speed;
-        contact.lacks = -1e30f;
+    void beginImpacts(Piece& piece, float stepTime) {
+        for (const Active& active : piece.active)
+            impacts.begin(active.slot, grid.sphereOf(active.slot),
+                          {&piece.found[0] + active.begin, size_t(active.end - active.begin)}, stepTime);
+    }
+
+    void choose(Piece& piece, uint32_t round, float restSpeed) {
+        for (const Active& active : piece.active) {
+            const auto sphere = size_t(grid.sphereOf(active.slot));
+            impacts.choose(active.slot, round, restSpeed, [&](int other, bool struck) {
+                return isClosed(keptOf(remembered(sphere), grid.sphereOf(other)), struck);
+            });
+        }
+    }
+
+    static bool isClosed(const Kept* known, bool struck) {
+        return known && (known->impulse != vec3(0) || (known->bounces > 1 && !struck));
     }
 
     const Kept* keptOf(const Memory& known, int other) const {
@@ -173,12 +165,20 @@ struct ContactBaseline::Data {
         Contact out;
         out.other = other;
         const Kept* known = keptOf(memoryOfOwn, grid.sphereOf(other));
-        const vec3 d = grid.position(slot) - grid.position(other);
-        meet(out, d, motions[a].velocity - motions[b].velocity, known != nullptr, slot < other, step);
-        out.stepAlong = motions[a].weight;
-        out.stepAcross = motions[b].weight;
-        out.takesPart = out.takesPart && out.stepAlong + out.stepAcross > 0;
-        if (out.since > 0) return out;
+        const BaselineSphere &own = impacts.spheres[a], &theirs = impacts.spheres[b];
+        const vec3 d = own.place - theirs.place;
+        const float distance = glm::length(d);
+        out.normal = distance > 1e-6f * reach ? d / distance : vec3(0, slot < other ? 1.0f : -1.0f, 0);
+        out.anchor = d;
+        out.lacks = reach - distance;
+        out.stepAlong = own.weight;
+        out.stepAcross = theirs.weight;
+        const float speed = -glm::dot(out.normal, own.velocity - theirs.velocity);
+        const bool waits = !isClosed(known, impacts.isStruck(slot, other)) && speed > step.restSpeed &&
+                           (out.lacks <= 0 || speed * step.restitution > step.restSpeed);
+        out.takesPart = !waits && out.stepAlong + out.stepAcross > 0;
+        if (!out.takesPart) return out;
+        if (impacts.hasHit(slot, other)) out.bounces = known ? known->bounces + 1 : 1;
         const bool deep = out.lacks > 0.25f * reach;
         if (known && (known->sticks || deep)) out.anchor = known->anchor;
         if (const float length = glm::length(out.anchor); deep && length > 1e-6f * reach) {
@@ -191,18 +191,10 @@ struct ContactBaseline::Data {
         out.held = glm::length(out.impulse);
         const float open = std::min(out.lacks, 0.0f);
         out.lacks -= 0.005f * reach;  // so much may rest as it is
-        out.target = (open + std::clamp(0.1f * out.lacks, 0.0f, 0.1f * step.stepTime)) / step.stepTime;
+        const float much = out.held > 0 ? std::clamp(0.1f * out.lacks, 0.0f, 0.1f * step.stepTime) : 0;
+        out.target = (open + much) / step.stepTime;
         out.lacks = std::min(out.lacks, step.stepTime);  // at 1 m/s
         return out;
-    }
-
-    static vec3 withinFriction(const vec3& impulse, const vec3& normal, float friction, bool& sticks) {
-        const float along = glm::dot(impulse, normal), most = friction * std::max(along, 0.0f);
-        const vec3 across = impulse - normal * along;
-        const float squared = glm::dot(across, across);
-        sticks = along >= 0 && squared <= most * most;
-        if (sticks) return impulse;
-        return normal * std::max(along, 0.0f) + across * (most / std::max(std::sqrt(squared), 1e-30f));
     }
 
     void prepare(Piece& piece, const ContactBaselineStep& step) {
@@ -219,12 +211,12 @@ struct ContactBaseline::Data {
                 active.shift += contact.normal * contact.apart;
                 if (!contact.takesPart) continue;
                 const glm::mat3 along = glm::outerProduct(contact.normal, contact.normal);
-                if (motions[slot].weight > 0) sum += along + frictionStep * (glm::mat3(1) - along);
+                if (impacts.spheres[slot].weight > 0) sum += along + frictionStep * (glm::mat3(1) - along);
                 ++acting;
             }
             counts[slot] = acting < 2 ? 1 : countOf(sum);
-            going[slot] = {motions[slot].velocity + active.total * motions[slot].weight,
-                           active.shift * motions[slot].weight};
+            going[slot] = {impacts.spheres[slot].velocity + active.total * impacts.spheres[slot].weight,
+                           active.shift * impacts.spheres[slot].weight};
         }
     }
 
@@ -277,7 +269,7 @@ struct ContactBaseline::Data {
                 total += contact.impulse;
                 shift += n * contact.apart;
             }
-            const Motion& motion = motions[size_t(active.slot)];
+            const BaselineSphere& motion = impacts.spheres[size_t(active.slot)];
             newGoing[size_t(active.slot)] = {
                 motion.velocity + (total + (total - active.total) * nextMomentum) * motion.weight,
                 (shift + (shift - active.shift) * nextMomentum) * motion.weight};
@@ -293,7 +285,7 @@ struct ContactBaseline::Data {
             const auto slot = size_t(active.slot), sphere = size_t(grid.sphereOf(active.slot));
             Memory& known = memory[sphere];
             known = {number, thread, int(piece.kept.size()), 0, vec3(0)};
-            vec3 shift = active.shift;
+            vec3 shift = active.shift + impacts.shift(active.slot);
             for (int c = active.begin; c < active.end; ++c) {
                 const Contact& contact = piece.contacts[size_t(c)];
                 if (!contact.takesPart) continue;
@@ -302,30 +294,37 @@ struct ContactBaseline::Data {
                 known.load += piece.kept.back().impulse;
             }
             known.end = int(piece.kept.size());
-            state.velocities[sphere] += (active.total + known.load) * motions[slot].weight;
-            state.positions[sphere] += shift * motions[slot].weight;
+            state.velocities[sphere] +=
+                (active.total + impacts.impulse(active.slot) + known.load) * impacts.spheres[slot].weight;
+            state.positions[sphere] += shift * impacts.spheres[slot].weight;
         }
     }
 
     // Returns how far a contact moves the sphere beside what pushes it apart, kg m.
     vec3 settle(int slot, const Contact& contact) const {
-        if (contact.since > 0) return contact.impulse * contact.since;
         if (!contact.sticks) return vec3(0);
-        vec3 slip = grid.position(slot) - grid.position(contact.other) - contact.anchor;
+        vec3 slip = impacts.spheres[size_t(slot)].place - impacts.spheres[size_t(contact.other)].place -
+                    contact.anchor;
         slip -= contact.normal * glm::dot(slip, contact.normal);
         return slip * (-contact.mass * std::min(1.0f, 0.002f * reach / std::max(glm::length(slip), 1e-30f)));
     }
 
     Kept keptOf(int slot, const Contact& contact, float restSpeed) const {
         const int other = grid.sphereOf(contact.other);
-        if (contact.since > 0) return {other, false, vec3(0), contact.anchor, 0};
+        if (contact.bounces > 0)
+            return {other, false, vec3(0), contact.anchor, contact.apart, contact.bounces};
         // memory takes in a tenth of what an impulse has grown by, and not much more than a weight
-        const float weight = motions[size_t(slot)].weight + motions[size_t(contact.other)].weight;
+        const float weight =
+            impacts.spheres[size_t(slot)].weight + impacts.spheres[size_t(contact.other)].weight;
         const float magnitude = glm::length(contact.impulse),
                     grown = std::max(magnitude - contact.held, 0.0f);
         const float most = std::min(contact.held + 0.1f * grown, 1.5f * contact.held + restSpeed / weight);
-        return {other, contact.sticks, contact.impulse * std::min(1.0f, most / std::max(magnitude, 1e-30f)),
-                contact.anchor, contact.apart};
+        return {other,
+                contact.sticks,
+                contact.impulse * std::min(1.0f, most / std::max(magnitude, 1e-30f)),
+                contact.anchor,
+                contact.apart,
+                0};
     }
 };
 
@@ -347,6 +346,14 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
     Data& data = *data_;
     data.grid.build(data.state);
     data.each([&](int thread, Piece& piece) { data.find(thread, piece); });
+    data.each([&](int, Piece& piece) { data.beginImpacts(piece, step.stepTime); });
+    for (uint32_t round = 1; round <= uint32_t(step.iterations); ++round) {
+        data.each([&](int, Piece& piece) { data.choose(piece, round, step.restSpeed); });
+        data.each([&](int, Piece& piece) {
+            for (const Active& active : piece.active)
+                data.impacts.strike(active.slot, round, step);
+        });
+    }
     data.each([&](int, Piece& piece) { data.prepare(piece, step); });
     data.each([&](int, Piece& piece) { data.share(piece); });
     const auto momentum = [&step](int i) {

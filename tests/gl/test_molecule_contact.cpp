@@ -159,8 +159,8 @@ TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]"
         const std::vector<reference::Sphere> found = statesOf(simulation);
         const Difference difference = farthest(found, c.expected);
         CAPTURE(name(path), material.x, difference.velocity, difference.position);
-        // of up to 3 m/s: a grazing contact's normal is a root of rounded numbers
-        CHECK(difference.velocity < 2e-4);
+        // of up to 3 m/s: a grazing contact's normal is a root of rounded numbers, and impacts hand it on
+        CHECK(difference.velocity < 3e-4);
         CHECK(difference.position < 2e-6);
     }
 }
@@ -212,7 +212,7 @@ TEST_CASE("contacts remember over steps as the reference does", "[molecule conta
         for (const dvec3& load : memory.loads)
             remembered += glm::length(load);
         CAPTURE(name(path), step, difference.velocity, difference.position, remembered);
-        CHECK(remembered > 1);
+        CHECK(remembered > 0.5);
         CHECK(simulation.contact()->dropped() == 0);
         CHECK(difference.velocity < 1e-4);
         CHECK(difference.position < 5e-6);
@@ -237,8 +237,7 @@ TEST_CASE("contact keeps momentum and never adds energy, and a repeat gives the 
                 simulation.frame();
                 const std::vector<reference::Sphere> after = statesOf(simulation);
                 // what overlapped at the start is pushed apart, which is no impact
-                // elastic: what four iterations leave where several meet at once
-                CHECK(energy(after) < energy(before) * (material.x == 1 ? 1.005 : 1.00001));
+                CHECK(energy(after) < energy(before) * 1.00001);
                 before = after;
             }
             CHECK(glm::length(momentum(before) - start) < 1e-6 * scale);

@@ -169,7 +169,7 @@ TEST_CASE("a heap in a box comes to rest as a whole", "[rest]") {
         collider.thickness = 0.05;
     }
     Simulation simulation = fusedOf(scene);
-    run(simulation, 240);
+    run(simulation, 360);  // 598 rest after 160; of the last few when is a matter of luck
     CHECK(resting(simulation) == places.size());
     // nothing hangs: each lies on the floor or touches one below
     const std::vector<dvec3> now = simulation.snapshot(0).positions;

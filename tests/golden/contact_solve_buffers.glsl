@@ -210,6 +210,7 @@ int listedIn(uint counted)
 const int NO_PART = 0;
 const int IMPACT = 1;
 const int PERSISTENT = 2;
+const int REPEATED = 3;
 struct ContactImpulse {
     vec3 impulse;
     float multiplier;
@@ -224,12 +225,17 @@ vec4 firstPart(ContactImpulse c)
 }
 vec4 secondPart(ContactImpulse c)
 {
-    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : c.kind == IMPACT ? 0.0 : -1.0);
+    float kind = c.kind == IMPACT ? 0.0 : c.kind == NO_PART ? -1.0 : -2.0;
+    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : kind);
 }
 ContactImpulse impulseFrom(vec4 first, vec4 second)
 {
-    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : NO_PART;
+    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : second.w > -1.5 ? NO_PART : REPEATED;
     return ContactImpulse(first.xyz, abs(first.w), first.w >= 0.0, second.xyz, second.w, kind);
+}
+bool isLoaded(ContactImpulse begun)
+{
+    return begun.kind == PERSISTENT && begun.start > 1e-19;
 }
 ContactImpulse noImpulse(int kind)
 {
@@ -260,6 +266,26 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
     vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
     return PairContact(impact ? touch : direction, impact ? since : 0.0f, reach - apart,
                        impact ? touchSpeed : dot(direction, u), impact);
+}
+struct PairImpact {
+    vec3 normal;
+    float since;
+    float speed;
+    bool happens;
+};
+PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, float side)
+{
+    vec3 start = d - u * time;
+    float along = dot(start, u);
+    float gap = dot(start, start) - reach * reach;
+    float under = along * along - dot(u, u) * gap;
+    float wait = gap > 0.0f ? gap / max(sqrt(max(under, 0.0f)) - along, 1e-30f) : 0.0f;
+    vec3 touch = start + u * wait;
+    float apart = sqrt(dot(touch, touch));
+    vec3 normal = apart > 1e-6f * reach ? touch / apart : vec3(0.0f, side, 0.0f);
+    float speed = dot(normal, u);
+    bool happens = along < 0.0f && under > 0.0f && wait <= time && speed < -restSpeed;
+    return PairImpact(normal, max(time - wait, 0.0f), speed, happens);
 }
 vec3 pairImpulse(vec3 u, vec3 n, float target, vec3 pushed, vec2 w)
 {
@@ -370,6 +396,34 @@ void add(inout BodyMotion motion, BodySphere body, vec3 impulse)
     motion.shift += impulse * body.perMass;
     motion.turn += body.perInertia * cross(body.arm, impulse);
 }
+#define collidersAt(i, k) vec4(0)
+struct NearCollider {
+    vec3 normal;
+    float gap;
+    vec3 velocity;
+    float friction;
+    bool bounces;
+};
+bool isNear(NearCollider collider)
+{
+    return collider.gap < 1e20;
+}
+vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
+{
+    vec4 texels[2 * MOST_COLLIDERS];
+    for (int k = 0; k < MOST_COLLIDERS; ++k) {
+        texels[2 * k] = vec4(near[k].normal, near[k].gap);
+        texels[2 * k + 1] = vec4(near[k].velocity, uintBitsToFloat(withFlag(near[k].friction, near[k].bounces)));
+    }
+    return texels;
+}
+NearCollider colliderNear(int sphere, int k)
+{
+    vec4 place = collidersAt(sphere, 2 * k);
+    vec4 surface = collidersAt(sphere, 2 * k + 1);
+    uint friction = floatBitsToUint(surface.w);
+    return NearCollider(place.xyz, place.w, surface.xyz, withoutFlag(friction), hasFlag(friction));
+}
 uniform usamplerBuffer lists;
 uint listsAt(int i, int e)
 {
@@ -463,7 +517,7 @@ Pair pairOf(int slot, int other, float bounceFrom)
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
     pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
-                               bounceFrom, slot < other ? 1.0 : -1.0);
+                               SPREADS ? bounceFrom : 1e30, slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
@@ -480,6 +534,10 @@ ContactImpulse remembered(ContactImpulse known, Sphere other)
     known.impulse *= min(1.0, most / max(size, 1e-30));
     if (known.kind == PERSISTENT) known.start = length(known.impulse);
     return known;
+}
+bool bouncesNext(NearCollider near)
+{
+    return !SPREADS && near.bounces && near.gap > 0.0 && dot(near.velocity - own.velocity, near.normal) > restSpeed;
 }
 bool isDeep(PairContact contact, float reach)
 {
@@ -525,9 +583,10 @@ struct Constraint {
 };
 const float overRelaxed = 1.3;
 const float pushSpeed = 1.0;
-float partingSpeed(float depth, float reach)
+float partingSpeed(float depth, float reach, bool loaded)
 {
-    return (min(depth, 0.0) + clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime)) / stepTime;
+    float much = loaded ? clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime) : 0.0;
+    return (min(depth, 0.0) + much) / stepTime;
 }
 float lacking(float depth, float reach)
 {
@@ -544,7 +603,7 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
     vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
     float reach = own.radius + pair.sphere.radius;
-    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach);
+    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach, isLoaded(begun));
     float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
     return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
 }
@@ -609,32 +668,6 @@ Constraint constraintOf(int slot, int e)
     vec4 weights = weightsAt(ownRow(slot), e);
     return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
 }
-#define collidersAt(i, k) vec4(0)
-struct NearCollider {
-    vec3 normal;
-    float gap;
-    vec3 velocity;
-    float friction;
-};
-bool isNear(NearCollider collider)
-{
-    return collider.gap < 1e20;
-}
-vec4[2 * MOST_COLLIDERS] packedColliders(NearCollider near[MOST_COLLIDERS])
-{
-    vec4 texels[2 * MOST_COLLIDERS];
-    for (int k = 0; k < MOST_COLLIDERS; ++k) {
-        texels[2 * k] = vec4(near[k].normal, near[k].gap);
-        texels[2 * k + 1] = vec4(near[k].velocity, near[k].friction);
-    }
-    return texels;
-}
-NearCollider colliderNear(int sphere, int k)
-{
-    vec4 place = collidersAt(sphere, 2 * k);
-    vec4 surface = collidersAt(sphere, 2 * k + 1);
-    return NearCollider(place.xyz, place.w, surface.xyz, surface.w);
-}
 uniform samplerBuffer warmStart;
 vec4 warmStartAt(int i)
 {
@@ -665,9 +698,9 @@ vec4 solveEntry(int slot, int e, Constraint asked)
 }
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
-    if (ownCount <= 0.0) return vec4(0.0);
+    if (ownCount <= 0.0 || bouncesNext(near)) return vec4(0.0);
     vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
-    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
+    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius),
                                   near.friction);
     ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
     return vec4(next.impulse, next.multiplier);

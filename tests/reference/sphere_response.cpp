@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace shoal::reference {
 
@@ -23,8 +24,8 @@ struct Meeting {
     dvec3 normal{0, 1, 0};  // from b to a
     double depth = 0;       // m
     double speed = 0;       // m/s, along the normal
-    double since = 0;       // s, since the impact
-    bool impact = false;    // else the two rest on one another, or nearly touch
+    bool struck = false;    // they had an impact in this step
+    int bounces = 0;        // steps in which they had one, without one between
     bool takesPart = true;  // else it is listed and does nothing
     dvec3 anchor{0};        // m
     double held = 0;        // N s, what it remembers of the last step
@@ -43,28 +44,17 @@ dvec3 withinCone(const dvec3& impulse, const dvec3& normal, double friction) {
     return grip <= friction * along ? impulse : along * normal + across * (friction * along / grip);
 }
 
-// Looks at which moment, and how, the two have met; `known`: they have been in contact before.
-void meet(Meeting& m, const Sphere& a, const Sphere& b, const SphereResponse& settings, bool known) {
-    const dvec3 u = a.velocity - b.velocity;
-    m.between = a.position - b.position;
-    m.reach = a.radius + b.radius;
-    const double distance = glm::length(m.between), q = glm::dot(u, u), p = glm::dot(m.between, u);
-    m.depth = m.reach - distance;
-    if (distance > 1e-6 * m.reach) m.normal = m.between / distance;
-    m.speed = glm::dot(m.normal, u);
-    const double under = p * p + q * (m.reach * m.reach - distance * distance);
-    if (known || q == 0 || (m.depth <= 0 && (p <= 0 || under <= 0))) return;
-    // the time back to when they touched: |between - u t| = reach
-    const double since = (p + std::sqrt(under)) / q;
-    const dvec3 touch = (m.between - u * since) / m.reach;
-    // a meeting that the last step has missed by 1e-4 of the reach counts
-    m.impact = (since - settings.stepTime) * std::sqrt(q) <= 1e-4 * m.reach &&
-               glm::dot(touch, u) < -settings.restSpeed;
-    if (!m.impact) return;
-    m.normal = touch;
-    m.since = since;
-    m.speed = glm::dot(touch, u);
-}
+// The next impact of two spheres.
+struct Impact {
+    size_t contact = 0, a = 0, b = 0;
+    double since = -1;  // s, since then
+    double speed = 0;   // m/s, along the normal
+    dvec3 normal{0, 1, 0};
+
+    bool isBefore(const Impact& other) const {
+        return std::tuple(-since, speed, a, b) < std::tuple(-other.since, other.speed, other.a, other.b);
+    }
+};
 
 constexpr double ofFriction =
     0.4;  // how far an iteration answers slip, as a part of how far it answers the rest
@@ -90,8 +80,18 @@ class Response {
     }
 
     void run(const std::vector<std::pair<int, int>>& contacts) {
-        for (const auto& [a, b] : contacts)
-            prepare(a, b);
+        for (const auto& [a, b] : contacts) {
+            Meeting& m = meetings_.emplace_back();
+            m.a = size_t(a);
+            m.b = size_t(b);
+            m.reach = sphere(m.a).radius + sphere(m.b).radius;
+        }
+        straight_.assign(spheres_->size(), settings_.stepTime);
+        last_.assign(spheres_->size(), -1);
+        for (int round = 0; round < settings_.iterations; ++round)
+            strike();
+        for (Meeting& m : meetings_)
+            prepare(m);
         share();
         for (int i = 0; i < settings_.iterations; ++i)
             relax(momentum(i, settings_.iterations));
@@ -121,27 +121,105 @@ class Response {
         return out;
     }
 
-    void prepare(int a, int b) {
-        Meeting& m = meetings_.emplace_back();
-        m.a = size_t(a);
-        m.b = size_t(b);
-        const auto known = memory_->contacts.find({a, b});
-        const bool isKnown = known != memory_->contacts.end();
-        meet(m, sphere(m.a), sphere(m.b), settings_, isKnown);
-        // what has not touched yet and comes fast will be an impact
-        const bool comes = !isKnown && !m.impact && m.depth <= 0 && m.speed < -settings_.restSpeed;
-        m.takesPart = !comes && sphere(m.a).weight + sphere(m.b).weight > 0;
-        if (m.impact) m.anchor = m.reach * m.normal;
-        if (m.impact || !m.takesPart) return;
+    bool isStruck(const Meeting& m) const { return last_[m.a] >= 0 || last_[m.b] >= 0; }
+
+    const ContactMemory::Entry* known(const Meeting& m) const {
+        const auto found = memory_->contacts.find({int(m.a), int(m.b)});
+        return found == memory_->contacts.end() ? nullptr : &found->second;
+    }
+
+    // Whether they touch and have no impact, however fast they approach.
+    bool isClosed(const Meeting& m) const {
+        const ContactMemory::Entry* entry = known(m);
+        if (!entry) return false;
+        return entry->impulse != dvec3(0) || (entry->bounces > 1 && !isStruck(m));
+    }
+
+    // Whether nothing has moved the two since their impact.
+    bool haveMet(size_t contact) const {
+        const Meeting& m = meetings_[contact];
+        const auto wasLast = [&](size_t s) { return sphere(s).weight <= 0 || last_[s] == int(contact); };
+        return wasLast(m.a) && wasLast(m.b);
+    }
+
+    Impact impactOf(size_t contact) const {
+        const Meeting& m = meetings_[contact];
+        const Sphere &a = sphere(m.a), &b = sphere(m.b);
+        Impact out{contact, m.a, m.b};
+        if (a.weight + b.weight <= 0 || isClosed(m) || haveMet(contact)) return out;
+        const double time = std::min(straight_[m.a], straight_[m.b]);
+        const dvec3 u = a.velocity - b.velocity, start = a.position - b.position - u * time;
+        const double p = glm::dot(start, u), gap = glm::dot(start, start) - m.reach * m.reach;
+        const double under = p * p - glm::dot(u, u) * gap;
+        if (p >= 0 || under <= 0) return out;
+        const double wait = std::max(gap, 0.0) / (std::sqrt(under) - p);  // 0 where they overlap by then
+        out.normal = glm::normalize(start + u * wait);
+        out.speed = glm::dot(out.normal, u);
+        if (wait <= time && out.speed < -settings_.restSpeed) out.since = time - wait;
+        return out;
+    }
+
+    // Of each sphere the earliest impact counts, where it is that of the other as well.
+    void strike() {
+        std::vector<Impact> earliest(spheres_->size());
+        for (size_t i = 0; i < meetings_.size(); ++i) {
+            const Impact impact = impactOf(i);
+            for (const size_t s : {impact.a, impact.b})
+                if (impact.since >= 0 && (earliest[s].since < 0 || impact.isBefore(earliest[s])))
+                    earliest[s] = impact;
+        }
+        for (size_t s = 0; s < earliest.size(); ++s) {
+            const Impact& impact = earliest[s];
+            if (impact.since < 0 || sphere(s).weight <= 0) continue;
+            const size_t other = impact.a == s ? impact.b : impact.a;
+            const bool agrees = sphere(other).weight <= 0 || earliest[other].contact == impact.contact;
+            if (agrees && (s == impact.a || sphere(other).weight <= 0)) strike(impact);
+        }
+    }
+
+    void strike(const Impact& impact) {
+        Meeting& m = meetings_[impact.contact];
+        Sphere &a = (*spheres_)[m.a], &b = (*spheres_)[m.b];
+        const dvec3 u = a.velocity - b.velocity;
+        const dvec3 wanted = (-(1 + settings_.restitution) * impact.speed * impact.normal -
+                              (u - impact.speed * impact.normal)) /
+                             (a.weight + b.weight);
+        const dvec3 impulse = withinCone(wanted, impact.normal, settings_.friction);
+        a.velocity += impulse * a.weight;
+        b.velocity -= impulse * b.weight;
+        a.position += impulse * a.weight * impact.since;
+        b.position -= impulse * b.weight * impact.since;
+        if (a.weight > 0) straight_[m.a] = impact.since;
+        if (b.weight > 0) straight_[m.b] = impact.since;
+        for (const size_t s : {m.a, m.b})
+            if (sphere(s).weight > 0) last_[s] = int(impact.contact);
+        m.struck = true;
+    }
+
+    void prepare(Meeting& m) {
+        const Sphere &a = sphere(m.a), &b = sphere(m.b);
+        m.between = a.position - b.position;
+        const double distance = glm::length(m.between);
+        m.depth = m.reach - distance;
+        if (distance > 1e-6 * m.reach) m.normal = m.between / distance;
+        m.speed = glm::dot(m.normal, a.velocity - b.velocity);
+        // what has not touched yet and comes fast will be an impact, and so will what the rounds have left
+        // over
+        const bool waits = !isClosed(m) && -m.speed > settings_.restSpeed &&
+                           (m.depth <= 0 || -m.speed * settings_.restitution > settings_.restSpeed);
+        m.takesPart = !waits && a.weight + b.weight > 0;
+        if (!m.takesPart) return;
         // where they are deep in one another, they leave as they came in
+        const ContactMemory::Entry* entry = known(m);
         const bool deep = m.depth > 0.25 * m.reach;
-        m.anchor = isKnown && (known->second.sticks || deep) ? known->second.anchor : m.between;
+        m.anchor = entry && (entry->sticks || deep) ? entry->anchor : m.between;
         if (deep && glm::length(m.anchor) > 0) {
             m.normal = glm::normalize(m.anchor);
             m.depth = m.reach - glm::dot(m.between, m.normal);
         }
-        if (isKnown) m.now.impulse = withinCone(known->second.impulse, m.normal, settings_.friction);
-        if (isKnown && m.depth > 0) m.now.apart = 0.7 * known->second.apart;
+        if (m.struck) m.bounces = entry ? entry->bounces + 1 : 1;
+        if (entry) m.now.impulse = withinCone(entry->impulse, m.normal, settings_.friction);
+        if (entry && m.depth > 0) m.now.apart = 0.7 * entry->apart;
         m.held = glm::length(m.now.impulse);
     }
 
@@ -168,9 +246,8 @@ class Response {
 
     // m/s, that a contact is to have along its normal.
     double target(const Meeting& m) const {
-        if (m.impact) return -settings_.restitution * m.speed;
-        // it may close what is open, and lets go a tenth of what overlaps too much
-        const double much = 0.1 * tooDeep(m);
+        // it may close what is open, and what carries something lets go a tenth of what overlaps too much
+        const double much = m.held > 0 ? 0.1 * tooDeep(m) : 0;
         return std::min(m.depth, 0.0) / settings_.stepTime + std::clamp(much / settings_.stepTime, 0.0, 0.1);
     }
 
@@ -200,14 +277,12 @@ class Response {
                              (u - along * m.normal) * (acrossStep / m.weight);
         m.now.impulse = withinCone(wanted, m.normal, settings_.friction);
         m.sticks = m.now.impulse == wanted;
-        if (m.impact) return;
         const double lacks = std::min(tooDeep(m), fastest * settings_.stepTime) - glm::dot(moved, m.normal);
         m.now.apart = std::max(m.now.apart + lacks * normalStep / m.weight, 0.0);
     }
 
     // How far a contact moves its spheres, kg m.
     dvec3 shift(const Meeting& m) const {
-        if (m.impact) return m.now.impulse * m.since;
         dvec3 out = m.now.apart * m.normal;
         dvec3 slip = m.between - m.anchor;
         slip -= glm::dot(slip, m.normal) * m.normal;
@@ -221,9 +296,9 @@ class Response {
         for (const Meeting& m : meetings_) {
             if (!m.takesPart) continue;
             ContactMemory::Entry& entry = memory_->contacts[{int(m.a), int(m.b)}] = {
-                dvec3(0), m.anchor, m.sticks && !m.impact, m.now.apart};
+                dvec3(0), m.anchor, m.sticks && !m.struck, m.now.apart, m.bounces};
             const double length = glm::length(m.now.impulse);
-            if (m.impact || length == 0) continue;
+            if (m.struck || length == 0) continue;
             // Memory takes in a tenth of what an impulse has grown by, and not much more than a weight.
             const double weight = sphere(m.a).weight + sphere(m.b).weight;
             const double most = std::min(m.held + 0.1 * std::max(length - m.held, 0.0),
@@ -241,6 +316,8 @@ class Response {
     SphereResponse settings_;
     ContactMemory* memory_;
     std::vector<Meeting> meetings_;
+    std::vector<int> last_;         // the contact of each sphere's last impact
+    std::vector<double> straight_;  // s, for how long each sphere has moved straight
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ struct ContactMemory {
         glm::dvec3 anchor{0};   // m, from the second's centre to the first's when they began to stick
         bool sticks = false;
         double apart = 0;  // kg m, by which the two were pushed apart
+        int bounces = 0;   // steps with an impact, up to the last
     };
     std::map<std::pair<int, int>, Entry> contacts;  // by spheres
     // N s, by sphere: the sums of the impulses, which are to act as a force until the next step.

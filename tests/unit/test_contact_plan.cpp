@@ -176,6 +176,27 @@ TEST_CASE("two spheres that have just met are taken back to their first touch", 
     CHECK(std::abs(same.depth - 0.1f) < 1e-7f);
 }
 
+TEST_CASE("the next impact of two spheres counts from when they began to move straight", "[contact plan]") {
+    // a moves at 2 m/s along x past b, 0.06 m aside; they touch where the distance is 0.1 m
+    const vec3 u(2, 0, 0), d(-0.08f + 2 * 0.004f, 0.06f, 0);
+    const shader::PairImpact c = shader::nextImpact(d, u, 0.1f, 0.005f, 0.01f, 1);
+    CHECK(c.happens);
+    CHECK(std::abs(c.since - 0.004f) < 1e-6f);
+    CHECK(glm::distance(c.normal, vec3(-0.8f, 0.6f, 0)) < 1e-5f);
+    CHECK(std::abs(c.speed + 1.6f) < 1e-5f);
+    const shader::PairImpact mirrored = shader::nextImpact(-d, -u, 0.1f, 0.005f, 0.01f, -1);
+    CHECK((mirrored.since == c.since && mirrored.speed == c.speed && mirrored.normal == -c.normal));
+    // they overlapped when it began, and approached: it is then
+    const shader::PairImpact late = shader::nextImpact(d, u, 0.1f, 0.003f, 0.01f, 1);
+    CHECK((late.happens && late.since == 0.003f));
+    CHECK_FALSE(shader::nextImpact(d, -u, 0.1f, 0.003f, 0.01f, 1).happens);            // they part
+    CHECK_FALSE(shader::nextImpact(d, u, 0.1f, 0.005f, 1.7f, 1).happens);              // too slow
+    CHECK_FALSE(shader::nextImpact(d - u * 0.005f, u, 0.1f, 0.005f, 0, 1).happens);    // not yet
+    CHECK_FALSE(shader::nextImpact(vec3(0.3f, 0.101f, 0), u, 0.1f, 1, 0, 1).happens);  // passed beside
+    const shader::PairImpact same = shader::nextImpact(vec3(0), vec3(0, 1, 0), 0.1f, 0, 0, -1);
+    CHECK(same.normal == vec3(0, -1, 0));
+}
+
 TEST_CASE("two spheres that do not overlap are no impact, however fast they come", "[contact plan]") {
     const shader::PairContact c =
         shader::pairContact(vec3(0.101f, 0, 0), vec3(-5, 0, 0), 0.1f, 0.01f, 0.01f, 1);

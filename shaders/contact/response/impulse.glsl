@@ -2,6 +2,7 @@
 const int NO_PART = 0;    // the contact takes no part in the response
 const int IMPACT = 1;
 const int PERSISTENT = 2;  // it is remembered
+const int REPEATED = 3;    // an impact like one in the step before
 
 struct ContactImpulse {
     vec3 impulse;      // on this slot's sphere, N s
@@ -19,13 +20,20 @@ vec4 firstPart(ContactImpulse c)
 
 vec4 secondPart(ContactImpulse c)
 {
-    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : c.kind == IMPACT ? 0.0 : -1.0);
+    float kind = c.kind == IMPACT ? 0.0 : c.kind == NO_PART ? -1.0 : -2.0;
+    return vec4(c.anchor, c.kind == PERSISTENT ? c.start + 1e-20 : kind);
 }
 
 ContactImpulse impulseFrom(vec4 first, vec4 second)
 {
-    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : NO_PART;
+    int kind = second.w > 0.0 ? PERSISTENT : second.w == 0.0 ? IMPACT : second.w > -1.5 ? NO_PART : REPEATED;
     return ContactImpulse(first.xyz, abs(first.w), first.w >= 0.0, second.xyz, second.w, kind);
+}
+
+// Whether a step has begun with something that the contact carries.
+bool isLoaded(ContactImpulse begun)
+{
+    return begun.kind == PERSISTENT && begun.start > 1e-19;
 }
 
 ContactImpulse noImpulse(int kind)

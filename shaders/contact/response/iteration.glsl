@@ -18,10 +18,12 @@ struct Constraint {
 const float overRelaxed = 1.3;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
 
-// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps too much.
-float partingSpeed(float depth, float reach)
+// m/s, at which the spheres of a contact are to part: they may still close what is open. A little of what overlaps too much parts what
+// carries something; elsewhere it would be energy from nowhere.
+float partingSpeed(float depth, float reach, bool loaded)
 {
-    return (min(depth, 0.0) + clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime)) / stepTime;
+    float much = loaded ? clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime) : 0.0;
+    return (min(depth, 0.0) + much) / stepTime;
 }
 
 // m, by which it is to be moved apart.
@@ -44,7 +46,7 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
     vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
     float reach = own.radius + pair.sphere.radius;
-    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach);
+    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach, isLoaded(begun));
     float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
     return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
 }

@@ -11,6 +11,7 @@
 #include "contact/slots.glsl"
 #include "contact/response/impulse.glsl"
 #include "contact/response/body.glsl"
+#include "contact/grid/colliders.glsl"
 #include "physics/pair.glsl"
 #pragma reads counts lists materials
 
@@ -113,7 +114,7 @@ Pair pairOf(int slot, int other, float bounceFrom)
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
     pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
-                               bounceFrom, slot < other ? 1.0 : -1.0);
+                               SPREADS ? bounceFrom : 1e30, slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
@@ -137,6 +138,12 @@ ContactImpulse remembered(ContactImpulse known, Sphere other)
     known.impulse *= min(1.0, most / max(size, 1e-30));
     if (known.kind == PERSISTENT) known.start = length(known.impulse);
     return known;
+}
+
+// Whether the own sphere is to bounce off a collider in its next step, which answers that.
+bool bouncesNext(NearCollider near)
+{
+    return !SPREADS && near.bounces && near.gap > 0.0 && dot(near.velocity - own.velocity, near.normal) > restSpeed;
 }
 
 bool isDeep(PairContact contact, float reach)

@@ -8,27 +8,16 @@
 #pragma writes totals warmStart contactSums nextColliderImpulses
 #pragma writes effectiveCounts when !spreads
 #pragma writes velocities when buffers !spreads
+#pragma writes impactGroups
 #endif
-#include "contact/response/pair.glsl"
-#include "contact/response/memory.glsl"
-#pragma reads oldImpulses oldAnchors oldWarmStart keptImpulses keptAnchors
-
-int memory;  // of the own sphere
-bool remembers;
-int oldListed;
+#include "contact/response/known.glsl"
+#include "contact/response/hits.glsl"
+#pragma reads oldWarmStart
 
 void loadOwn(int slot)
 {
     loadSphere(slot);
-    memory = memoryOf(sphereOf(slot));
-    remembers = !own.fresh && remembersAt(memory);
-    oldListed = remembers ? rememberedBy(memory) : 0;
-}
-
-ContactImpulse oldImpulse(int e)
-{
-    if (inTextures) return impulseFrom(oldImpulsesAt(memory, e), oldAnchorsAt(memory, e));
-    return impulseFrom(keptImpulsesAt(memory, e), keptAnchorsAt(memory, e));
+    loadMemory(slot);
 }
 
 // Returns from what the iterations set out to push apart what the last step pushed by `before`, kg m: from most of it while it still
@@ -38,24 +27,33 @@ float carriedOver(float before, float depth)
     return depth > 0.0 ? 0.7 * before : 0.0;
 }
 
-// Returns a contact's impulse as the step begins with it. `pair`: as pairAs() has it.
-ContactImpulse prepare(int slot, int other, out Pair pair)
+// Whether an impact was left over by the rounds (contact/response/impacts.pass.glsl), or is to come. What would bounce too little for
+// an impact is answered like what rests.
+bool waits(Pair pair, ContactImpulse old, bool struck)
 {
-    int otherMemory = memoryOf(sphereOf(other));
-    int place = -1;
-    for (int e = 0; e < oldListed; ++e) place = partnerAt(memory, e) == otherMemory ? e : place;
-    ContactImpulse old = oldImpulse(max(place, 0));
-    bool isOld = place >= 0 && old.kind != NO_PART && !isFresh(other);
+    float speed = -pair.contact.speed;
+    if (isClosed(old, struck) || speed <= restSpeed) return false;
+    return pair.contact.depth <= 0.0 || speed * pair.material.x > restSpeed;
+}
+
+// Returns a contact's impulse as the step begins with it. `pair`: as pairAs() has it.
+ContactImpulse prepare(int slot, int e, out Pair pair)
+{
+    int other = int(listsAt(slot, e));
+    ContactImpulse old = oldContact(other);
+    bool isOld = old.kind != NO_PART;
     // what is remembered is no impact, however fast it closes
     pair = pairOf(slot, other, isOld ? 1e30 : restSpeed);
     PairContact contact = pair.contact;
     float reach = own.radius + pair.sphere.radius;
-    ContactImpulse known = noImpulse(contact.impact ? IMPACT : PERSISTENT);
+    bool hadImpact = SPREADS ? contact.impact : isStruck(slot) && hasHit(slot, e);
+    bool again = old.kind == IMPACT || old.kind == REPEATED;
+    ContactImpulse known = noImpulse(!hadImpact ? PERSISTENT : again ? REPEATED : IMPACT);
     // a little along the normal as well, which is then known where centres coincide
     known.anchor = (contact.impact ? vec3(0.0) : pair.apart) + contact.normal * ((contact.impact ? 1.0 : 1e-6) * reach);
     if (contact.impact) return known;
-    // what has not touched yet and comes fast will be an impact
-    bool comes = !isOld && contact.depth <= 0.0 && contact.speed < -restSpeed;
+    bool comes = SPREADS && !isOld && contact.depth <= 0.0 && contact.speed < -restSpeed;
+    if (!SPREADS) comes = waits(pair, old, isStruck(slot) || (pair.sphere.weight > 0.0 && isStruck(other)));
     if (comes || !pair.meets) {
         known.kind = NO_PART;
         pair.meets = false;
@@ -78,7 +76,7 @@ ContactImpulse prepare(int slot, int other, out Pair pair)
 void makeEntry(int slot, int e)
 {
     Pair pair;
-    ContactImpulse known = prepare(slot, int(listsAt(slot, e)), pair);
+    ContactImpulse known = prepare(slot, e, pair);
     putNextImpulses(slot, e, firstPart(known));
     putAnchors(slot, e, secondPart(known));
 }
@@ -89,13 +87,12 @@ void makeEntry(int slot, int e)
 ContactImpulse begin(int slot, int e, out Pair pair)
 {
     int row = ownRow(slot);
-    int other = int(listsAt(slot, e));
     if (inTextures) {
         ContactImpulse begun = impulseFrom(impulsesAt(row, e), anchorsAt(row, e));
-        pair = pairAs(slot, other, begun);
+        pair = pairAs(slot, int(listsAt(slot, e)), begun);
         return begun;
     }
-    ContactImpulse known = prepare(slot, other, pair);
+    ContactImpulse known = prepare(slot, e, pair);
     putImpulses(row, e, firstPart(known));
     putAnchors(row, e, secondPart(known));
     return known;
@@ -120,7 +117,7 @@ struct ColliderImpulse {
 vec4 prepareCollider(int slot, NearCollider near, ColliderImpulse old[MOST_COLLIDERS])
 {
     vec4 push = vec4(0.0);
-    if (!isNear(near) || own.weight <= 0.0 || !isActedOn(countsAt(slot))) return push;
+    if (!isNear(near) || bouncesNext(near) || own.weight <= 0.0 || !isActedOn(countsAt(slot))) return push;
     countIn(near.normal);
     for (int o = 0; o < MOST_COLLIDERS; ++o) {
         bool same = remembers && dot(old[o].normal, near.normal) > 0.9;
@@ -134,6 +131,8 @@ void main()
 {
     int slot = ownSlot(count);
     if (slot < 0) return;
+    putImpactGroups(0, 0, 0u);  // nobody is listed for the next step
+    putImpactGroups(0, 3, 0u);
     loadOwn(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);

@@ -64,9 +64,9 @@ vec4 solveEntry(int slot, int e, Constraint asked)
 // Returns a collider's impulse after the iteration: a body of infinite mass, which does not ask whether it slides.
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
-    if (ownCount <= 0.0) return vec4(0.0);
+    if (ownCount <= 0.0 || bouncesNext(near)) return vec4(0.0);
     vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
-    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius), weights, lacking(-near.gap, own.radius),
+    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius),
                                   near.friction);
     ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
     return vec4(next.impulse, next.multiplier);

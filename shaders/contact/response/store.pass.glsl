@@ -2,6 +2,7 @@
 #pragma updates totals colliderImpulses
 #include "contact/grid/colliders.glsl"
 #include "contact/response/pair.glsl"
+#include "contact/response/hits.glsl"
 #pragma reads impulses anchors
 #pragma writes warmStart partners keptImpulses keptAnchors memoryCounts oldNormals
 #pragma writes nextTotals when textures
@@ -58,6 +59,11 @@ void main()
             putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
         }
     }
+    if (!SPREADS && isStruck(slot)) {
+        total.xyz += uintBitsToFloat(impactsAt(slot, 0).xyz);
+        shift += uintBitsToFloat(impactsAt(slot, 1).xyz);
+    }
+    putTotals(slot, 0, vec4(total.xyz, 0.0));
     putTotals(slot, 1, vec4(shift, 0.0));
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));

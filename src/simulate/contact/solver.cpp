@@ -11,6 +11,11 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
         prepare_ = data.stage("contact/response/prepare");
         solve_ = data.stage("contact/response/solve");
         store_ = data.stage("contact/response/store");
+        if (!data.spreads) {
+            chooseFirst_ = data.stage("contact/response/choose", {"FIRST"}, "choose_first");
+            choose_ = data.stage("contact/response/choose");
+            strike_ = data.stage("contact/response/strike");
+        }
         if (data.textures) {
             prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"}, "prepare_entries");
             constrain_ = data.stage("contact/response/solve", {"FIRST", "ENTRIES"}, "constrain");
@@ -71,6 +76,28 @@ void ContactSolver::runEntries(const Program& program) {
     for (int first = 0; first < data_->listLength; first += together) {
         program.set("firstEntry", first);
         data_->arrays.run(program, 0, data_->contact->spheres, first);
+    }
+}
+
+// Rounds of a choice and what follows from it; with buffers they are empty where there is no impact.
+void ContactSolver::strike(const ContactStep& times) {
+    const auto run = [&](const Program& program, int round) {
+        data_->withResponse(program, times);
+        if (program.uses("roundNumber")) program.set("roundNumber", round);
+        if (data_->textures)
+            data_->runAll(program);
+        else if (&program == &chooseFirst_)
+            data_->runResponding(program);
+        else
+            data_->arrays.runIndirect(program, "impactGroups", 0);
+    };
+    for (int round = 1; round <= data_->contact->settings.iterations; ++round) {
+        run(round == 1 ? chooseFirst_ : choose_, round);
+        run(strike_, round);
+        if (!data_->textures) continue;
+        data_->arrays.swap("places", "nextPlaces");
+        data_->arrays.swap("motions", "nextMotions");
+        data_->arrays.swap("impacts", "nextImpacts");
     }
 }
 
@@ -179,6 +206,7 @@ void ContactSolver::applyGains(const ContactStep& times) {
 
 void ContactSolver::run(const ContactStep& times) {
     if (data_->remembers) {
+        if (!data_->spreads) strike(times);
         prepare(times);
         for (int i = 0; i < data_->contact->settings.iterations; ++i)
             solve(times, i);

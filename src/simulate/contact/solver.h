@@ -1,5 +1,6 @@
 // The response of contact (shaders/contact/response): the impulses of all contacts, in Jacobi iterations.
 //
+//   choose, strike  impacts in their order, where no sphere's contacts move others
 //   prepare         the impulse with which each contact begins, from what it remembers
 //   effective_sum   by how many contacts each step is divided, where contacts of several spheres act together
 //   constrain       what the iterations ask of a contact (with buffers, in the first of them)
@@ -36,6 +37,7 @@ class ContactSolver {
                    const ContactData::Spheres& spheres);
     void runEntries(const gpu::Program& program);  // in fragments
 
+    void strike(const ContactStep& times);
     void prepare(const ContactStep& times);
     void countEffective();
     void solve(const ContactStep& times, int iteration);
@@ -46,7 +48,8 @@ class ContactSolver {
 
     ContactData* data_;
     std::vector<Group> groups_;
-    gpu::Program nearest_, prepareEntries_, prepare_, constrain_, solveEntries_, solveFirst_, solve_, store_;
+    gpu::Program nearest_, chooseFirst_, choose_, strike_, prepareEntries_, prepare_, constrain_,
+        solveEntries_, solveFirst_, solve_, store_;
 };
 
 }  // namespace shoal

@@ -1,0 +1,183 @@
+// Impacts of marbles in their order: rows, racks and gases keep their energy, and no cluster gains any.
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "gl/marbles.h"
+#include "scene/collider_kinds.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using namespace test;
+using glm::dvec3;
+using glm::vec2;
+
+namespace {
+
+double energy(const reference::Sphere& sphere) {
+    return glm::dot(sphere.velocity, sphere.velocity) / sphere.weight / 2;
+}
+
+double energyOf(const Simulation& simulation) {
+    double sum = 0;
+    for (const reference::Sphere& sphere : statesOf(simulation))
+        sum += energy(sphere);
+    return sum;
+}
+
+// Marbles of 0.1 m in a row along x, with gaps, and one that comes at 1 m/s.
+Scene row(int count, double gap) {
+    std::vector<dvec3> places = {{-0.5, 0, 0}};
+    for (int i = 0; i < count; ++i)
+        places.emplace_back(i * (0.2 + gap), 0, 0);
+    return marbles(places, 0.1);
+}
+
+std::vector<dvec3> firstComes(size_t count) {
+    std::vector<dvec3> out(count, dvec3(0));
+    out[0].x = 1;
+    return out;
+}
+
+}  // namespace
+
+// Each strikes the next alone: it keeps (1 - e) / 2 of its speed, and hands on (1 + e) / 2.
+TEST_CASE("a row of marbles hands on an impact from each to the next", "[impacts]") {
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const double gap = GENERATE(0.0, 0.0003, 0.0021, 0.0039, 0.0041);
+    const double e = GENERATE(1.0, 0.9);
+    const int count = 20;
+    const Scene scene = row(count, gap);
+    Simulation simulation = startedWith(scene, firstComes(count + 1), vec2(float(e), 0), path);
+    test::run(simulation, 130);
+    const Snapshot after = simulation.snapshot(0);
+    double handed = 1, worst = 0;
+    for (int i = 0; i <= count; ++i) {
+        const double kept = i < count ? handed * (1 - e) / 2 : handed;
+        worst = std::max(worst, std::abs(double(after.velocities[size_t(i)].x) - kept));
+        handed *= (1 + e) / 2;
+    }
+    CAPTURE(name(path), gap, e, worst);
+    // in narrow gaps those that keep a part of the speed strike one another again
+    CHECK((worst < 1e-5 || (gap < 0.003 && e < 1)));
+    CHECK(std::abs(after.velocities.back().x / std::pow((1 + e) / 2, count) - 1) < 0.02);
+}
+
+TEST_CASE("a marble that breaks a rack keeps its energy at any number of iterations", "[impacts]") {
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const int iterations = GENERATE(1, 4, 6, 8, 12);
+    std::vector<dvec3> places = {{-0.4, 0.001, 0}};
+    for (int i = 0; i < 5; ++i)
+        for (int k = 0; k <= i; ++k)
+            places.emplace_back(0.1 * std::sqrt(0.75) * i, 0.1 * k - 0.05 * i, 0);
+    Scene scene = marbles(places, 0.05);
+    scene.contact.iterations = iterations;
+    for (const float e : {1.0f, 0.9f}) {
+        Simulation simulation = startedWith(scene, firstComes(places.size()), vec2(e, 0), path);
+        const double before = energyOf(simulation);
+        double most = 1;
+        for (int i = 0; i < 100; ++i) {
+            simulation.frame();
+            most = std::max(most, energyOf(simulation) / before);
+        }
+        const double after = energyOf(simulation) / before;
+        CAPTURE(name(path), iterations, e, most, after);
+        CHECK(most < 1 + 1e-5);
+        if (e == 1) CHECK(after > 1 - 1e-4);
+        if (e < 1) CHECK(after < 0.99);
+        CHECK(glm::length(momentum(statesOf(simulation)) - dvec3(1, 0, 0)) < 1e-5);
+    }
+}
+
+// 216 marbles fill a fifth of a room of smooth walls, elastic like them.
+TEST_CASE("a gas of elastic marbles keeps its energy", "[impacts]") {
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const double radius = 0.05, side = std::cbrt(216 * 4 * 3.14159265 / 3 * radius * radius * radius / 0.2);
+    std::vector<dvec3> places, velocities;
+    std::mt19937 random(3);
+    std::normal_distribution<double> speed(0, 0.5);
+    for (int i = 0; i < 216; ++i) {
+        places.push_back((dvec3(i % 6, i / 6 % 6, i / 36) + 0.5) * (side / 6));
+        velocities.emplace_back(speed(random), speed(random), speed(random));
+    }
+    Scene scene = marbles(places, radius);
+    for (int wall = 0; wall < 6; ++wall) {
+        dvec3 point(0), inwards(0);
+        inwards[wall / 2] = wall % 2 == 0 ? 1 : -1;
+        if (wall % 2 == 1) point[wall / 2] = side;
+        scene.colliders.push_back({.name = concat("wall ", wall),
+                                   .shape = PlaneCollider{point, inwards},
+                                   .restitution = 1,
+                                   .friction = 0});
+    }
+    Simulation simulation = startedWith(scene, velocities, vec2(1, 0), path);
+    const double before = energyOf(simulation);
+    test::run(simulation, 300);
+    const double after = energyOf(simulation) / before;
+    CAPTURE(name(path), after);
+    CHECK(std::abs(after - 1) < 0.01);
+}
+
+// In one step of contact, whatever they have for masses, friction, restitution and overlaps.
+TEST_CASE("no cluster of marbles gains energy from an impact, or momentum", "[impacts]") {
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    constexpr int clusters = 2500;
+    const int iterations = GENERATE(1, 4, 8, 30);
+    std::mt19937 random(unsigned(iterations) * 7);
+    const auto between = [&](double a, double b) {
+        return std::uniform_real_distribution<double>(a, b)(random);
+    };
+    constexpr size_t masses = 7;
+    std::vector<std::vector<dvec3>> places(masses), velocities(masses);
+    std::vector<std::vector<int>> owners(masses);
+    for (int c = 0; c < clusters; ++c) {
+        const int count = 2 + int(random() % 59);
+        const double side = 0.2 * std::cbrt(count) * between(0.75, 1.3), heaviest = between(0, masses);
+        const dvec3 corner(4 * (c % 50), 4 * (c / 50), 0);
+        for (int i = 0; i < count; ++i) {
+            const auto mass = size_t(between(0, heaviest));
+            places[mass].push_back(corner + dvec3(between(0, side), between(0, side), between(0, side)));
+            velocities[mass].emplace_back(between(-1, 1), between(-1, 1), between(-1, 1));
+            owners[mass].push_back(c);
+        }
+    }
+    Scene scene;
+    std::vector<dvec3> allVelocities;
+    std::vector<int> allOwners;
+    for (size_t mass = 0; mass < masses; ++mass) {
+        Scene part = marbles(places[mass], 0.1, std::pow(10, 0.5 * double(mass)));
+        part.groups[0].name = concat("mass ", mass);
+        if (mass == 0)
+            scene = part;
+        else
+            scene.groups.push_back(part.groups[0]);
+        allVelocities.insert(allVelocities.end(), velocities[mass].begin(), velocities[mass].end());
+        allOwners.insert(allOwners.end(), owners[mass].begin(), owners[mass].end());
+    }
+    scene.contact.iterations = iterations;
+    const vec2 material(float(between(0, 1)), float(between(0, 1)));
+    Simulation simulation = startedWith(scene, allVelocities, material, path);
+    const auto sums = [&] {
+        std::vector<glm::dvec4> out(clusters, glm::dvec4(0));
+        const std::vector<reference::Sphere> spheres = statesOf(simulation);
+        for (size_t i = 0; i < spheres.size(); ++i)
+            out[size_t(allOwners[i])] +=
+                glm::dvec4(spheres[i].velocity / spheres[i].weight, energy(spheres[i]));
+        return out;
+    };
+    const std::vector<glm::dvec4> before = sums();
+    simulation.frame();
+    const std::vector<glm::dvec4> after = sums();
+    double most = 0, lost = 0;
+    for (size_t c = 0; c < clusters; ++c) {
+        most = std::max(most, after[c].w / before[c].w);
+        lost = std::max(lost, glm::length(dvec3(after[c]) - dvec3(before[c])) / std::sqrt(before[c].w));
+    }
+    CAPTURE(name(path), iterations, material.x, material.y, most, lost);
+    CHECK(simulation.contact()->dropped() == 0);
+    CHECK(most < 1 + 1e-5);
+    CHECK(lost < 1e-4);
+}
+
+}  // namespace shoal
