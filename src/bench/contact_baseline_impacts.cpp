@@ -94,8 +94,8 @@ void ContactImpacts::strike(int slot, uint32_t round, const ContactBaselineStep&
     if (moves && slot > impact.other) return;
     const BaselineSphere &a = spheres[size_t(slot)], &b = spheres[size_t(impact.other)];
     const vec3 u = a.velocity - b.velocity, n = impact.normal;
-    const vec3 wanted = (n * (-(1 + step.restitution) * impact.speed) - (u - n * impact.speed)) /
-                        (a.weight + b.weight);
+    const vec3 wanted =
+        (n * (-(1 + step.restitution) * impact.speed) - (u - n * impact.speed)) / (a.weight + b.weight);
     bool sticks = false;
     const vec3 impulse = withinFriction(wanted, n, step.friction, sticks);
     push(slot, impact.other, impulse, impact.since);

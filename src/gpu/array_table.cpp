@@ -268,7 +268,14 @@ std::string ArrayDeclarations::declare(const std::string& verb, const std::vecto
     std::string out;
     for (auto name = words.begin(); name != last; ++name) {
         const ArrayRow* missing = table_->findAbsent(*name);
-        if (!missing && !isMet) missing = &table_->row(*name, where);
+        if (!missing && !isMet) {
+            missing = &table_->row(*name, where);
+            if (verb == "updates") zeros_.insert(*name);
+        } else if (!missing && verb == "reads" && zeros_.contains(*name)) {
+            throw Error(where,
+                        concat("\"", *name, "\" is read, but was updated for some scenes or forms only, ",
+                               "and is zeros in others"));
+        }
         if (missing)
             out += absent(*missing, verb);
         else

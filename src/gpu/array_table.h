@@ -82,7 +82,8 @@ class ArrayDeclarations {
     explicit ArrayDeclarations(const ArrayTable& table) : table_(&table) {}
 
     // The text in place of #pragma reads, writes or updates with these words: names and, after "when", what
-    // the scene must have. Error, located: it is none of the three; no such array.
+    // the scene must have. Error, located: it is none of the three; no such array; it is read by all after
+    // some have updated it.
     std::string declare(const std::string& verb, const std::vector<std::string>& words,
                         const Location& where);
     const std::vector<std::string>& written() const { return written_; }
@@ -99,7 +100,8 @@ class ArrayDeclarations {
     std::string withStride(const ArrayRow& row);
 
     const ArrayTable* table_;
-    std::set<std::string> read_, nowhere_;  // nowhere_: what is put into them
+    // nowhere_: what is put into them; zeros_: they are updated elsewhere, and read as zeros here
+    std::set<std::string> read_, nowhere_, zeros_;
     std::vector<std::string> written_, updated_;
     int location_ = 0;
     bool hasStride_ = false;

@@ -647,6 +647,11 @@ vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
     if (asked.friction < 0.0) return vec4(0.0);
     return firstPart(solved(asked, movedAt(other), push, before));
 }
+uniform samplerBuffer anchors;
+vec4 anchorsAt(int i, int e)
+{
+    return texelFetch(anchors, (e) * listStride + (i));
+}
 uniform samplerBuffer normals;
 vec4 normalsAt(int i, int e)
 {
@@ -656,11 +661,6 @@ uniform samplerBuffer weights;
 vec4 weightsAt(int i, int e)
 {
     return texelFetch(weights, (e) * listStride + (i));
-}
-uniform samplerBuffer anchors;
-vec4 anchorsAt(int i, int e)
-{
-    return texelFetch(anchors, (e) * listStride + (i));
 }
 Constraint constraintOf(int slot, int e)
 {

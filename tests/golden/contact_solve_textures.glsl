@@ -653,6 +653,11 @@ vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
     if (asked.friction < 0.0) return vec4(0.0);
     return firstPart(solved(asked, movedAt(other), push, before));
 }
+uniform sampler2DArray anchors;
+vec4 anchorsAt(int i, int e)
+{
+    return texelFetch(anchors, ivec3(texelOf(i), e), 0);
+}
 uniform sampler2DArray normals;
 vec4 normalsAt(int i, int e)
 {
@@ -662,11 +667,6 @@ uniform sampler2DArray weights;
 vec4 weightsAt(int i, int e)
 {
     return texelFetch(weights, ivec3(texelOf(i), e), 0);
-}
-uniform sampler2DArray anchors;
-vec4 anchorsAt(int i, int e)
-{
-    return texelFetch(anchors, ivec3(texelOf(i), e), 0);
 }
 Constraint constraintOf(int slot, int e)
 {

@@ -127,4 +127,9 @@ TEST_CASE("an array that a form or a scene lacks takes nothing", "[arrays]") {
     CHECK_THAT(shaderOf(buffers, both), Contains("buffer Totals") && Contains("totalsAt(int i, int k)"));
     CHECK_THAT(shaderOf(tableOf(rows, Form::textures), both),
                Contains("#undef putTotals") && Contains("out vec4 newTotals[2]"));
+    // it would read zeros in fragments
+    const std::string trap = "#pragma updates totals when buffers\n#pragma reads totals\n";
+    CHECK_THAT(shaderOf(buffers, trap), Contains("buffer Totals"));
+    CHECK_THROWS_WITH(shaderOf(tableOf(rows, Form::textures), trap),
+                      Contains("\"totals\" is read, but was updated for some scenes or forms only"));
 }

@@ -11,7 +11,7 @@ const float momentum = 0.0;
 uniform float momentum;
 #endif
 #include "contact/response/iteration.glsl"
-#pragma reads normals weights anchors
+#pragma reads anchors
 
 #ifdef FIRST
 Constraint constraintOf(int slot, int e)
@@ -23,6 +23,8 @@ Constraint constraintOf(int slot, int e)
     return made;
 }
 #else
+#pragma reads normals weights
+
 Constraint constraintOf(int slot, int e)
 {
     vec4 normal = normalsAt(ownRow(slot), e);
