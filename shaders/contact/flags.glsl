@@ -15,8 +15,7 @@ bool isActedOn(uint counted)
 }
 
 // With a number that is never negative, as bits: of a sphere's 1/mass, that its molecule has been born since the last step, and
-// remembers nothing; of its radius, that its molecule rests; of
-// a collider's friction, that it has restitution.
+// remembers nothing; of its radius, that its molecule rests; of a collider's friction, that it has restitution.
 const uint FLAG = 0x80000000u;
 
 uint withFlag(float number, bool isSet)

@@ -56,7 +56,7 @@ void main()
     loadSphere(slot);
     putChoices(slot, choose(slot));
 #ifdef FIRST
-    putAllImpacts(slot, uvec4[3](uvec4(uvec3(0u), NEVER), uvec4(0u), uvec4(0u)));
+    putAllImpacts(slot, uvec4[3](NO_IMPACT, uvec4(0u), uvec4(0u)));
 #endif
 }
 #elif defined(FIRST)
@@ -82,8 +82,8 @@ void main()
         strike(slot, other, sphereAt(other), 0u, 0u);
         return;
     }
-    if (isPaired) putImpacts(other, 0, uvec4(uvec3(0u), NEVER));
-    putImpacts(slot, 0, uvec4(uvec3(0u), NEVER));
+    if (isPaired) putImpacts(other, 0, NO_IMPACT);
+    putImpacts(slot, 0, NO_IMPACT);
     putChoices(slot, choice);
     putImpactRounds(slot, any ? 1u : 0u);
     if (any) listSlot(slot);

@@ -2,6 +2,7 @@
 #pragma reads impacts
 
 const uint NEVER = 0x7f800000u;  // infinitely long ago
+const uvec4 NO_IMPACT = uvec4(uvec3(0u), NEVER);
 
 bool isStruck(int slot)
 {

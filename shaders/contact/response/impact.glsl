@@ -50,7 +50,7 @@ struct Struck {
 
 Struck struckAs(int slot)
 {
-    Struck s = Struck(placesAt(slot), motionAt(slot), uvec4[3](uvec4(uvec3(0u), NEVER), uvec4(0u), uvec4(0u)));
+    Struck s = Struck(placesAt(slot), motionAt(slot), uvec4[3](NO_IMPACT, uvec4(0u), uvec4(0u)));
     if (!isFirst && isStruck(slot)) s.impacts = uvec4[3](impactsAt(slot, 0), impactsAt(slot, 1), impactsAt(slot, 2));
     return s;
 }

@@ -131,8 +131,10 @@ void main()
 {
     int slot = ownSlot(count);
     if (slot < 0) return;
-    putImpactGroups(0, 0, 0u);  // nobody is listed for the next step
-    putImpactGroups(0, 3, 0u);
+    if (ownNumber() == 0) {  // nobody is listed for the next step
+        putImpactGroups(0, 0, 0u);
+        putImpactGroups(0, 3, 0u);
+    }
     loadOwn(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);
