@@ -15,6 +15,7 @@ namespace {
 // Molecules of a group, and groups, that the label of a sphere tells apart (shaders/contact/arrays.txt).
 constexpr size_t mostGroups = 64;
 constexpr int64_t mostSpheres = int64_t(1) << 27;
+constexpr double mostMassRatio = 1e6;  // floats have 7 digits
 
 // Up to 5 significant bits.
 double roundedUp(double length) {
@@ -55,6 +56,17 @@ std::vector<glm::vec4> shapesOf(const ContactGroup& group, const Molecule& molec
     return out;
 }
 
+glm::dvec2 massesOf(const Molecule& molecule, const GroupPlan& plan) {
+    if (plan.rigid && !plan.needs.pins) return glm::dvec2(molecule.mass());
+    glm::dvec2 out(0);
+    for (const Vertex& vertex : molecule.vertices) {
+        if (plan.needs.pins && vertex.pinned) continue;
+        out.x = out.x > 0 ? std::min(out.x, vertex.mass) : vertex.mass;
+        out.y = std::max(out.y, vertex.mass);
+    }
+    return out;
+}
+
 ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     ContactGroup out;
     out.radius = source.contact->radius;
@@ -67,6 +79,7 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
             out.corners.emplace_back(t.a, t.b, t.c);
         out.spheresOf += int(out.corners.size());
     }
+    out.masses = massesOf(source.molecule, plan);
     out.shapes = shapesOf(out, source.molecule, plan.needs.pins);
     if (out.self) markClose(source.molecule, out);
     return out;
@@ -102,6 +115,22 @@ void checkRest(const Scene& scene, int steps) {
         throw Error(settingOf(scene, "rest"),
                     concat("\"rest\" of ", *settings.rest,
                            " m/s is more than what falls gains in a contact step, ", fall, " m/s"));
+}
+
+// Refuses masses of which the larger leave nothing of the smaller in a float.
+void checkMasses(const Scene& scene, const std::vector<GroupPlan>& plans,
+                 const std::vector<ContactGroup>& groups) {
+    for (const ContactGroup& light : groups) {
+        for (const ContactGroup& heavy : groups) {
+            const double ratio = light.masses.x > 0 ? heavy.masses.y / light.masses.x : 0;
+            if (ratio <= mostMassRatio) continue;
+            const GroupPlan& plan = plans[heavy.group];
+            throw Error(
+                scene.groups[plan.index].contact->location,
+                concat("what contact moves of \"", plan.name, "\" is ", ratio, " times as heavy as of \"",
+                       plans[light.group].name, "\": at most ", mostMassRatio, " times can be told apart"));
+        }
+    }
 }
 
 }  // namespace
@@ -155,6 +184,7 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     const int substeps = scene.solver.substeps;
     out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
     checkRest(scene, out.steps);
+    checkMasses(scene, groups, out.groups);
     // a little more, so that rounding loses nothing
     out.reach = (1 + 1e-5) * std::max(2 * ContactPlan::near * out.largestRadius,
                                       2 * out.largestRadius +

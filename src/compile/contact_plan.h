@@ -29,6 +29,9 @@ struct ContactGroup {
     double radius = 0;    // m, at scale 1
     // Factors on it at birth and at the end of life: as a particle is drawn.
     glm::dvec2 growth{1};
+    // kg, the least and the most of what an impulse on a sphere moves: a vertex, or a whole body. Nothing of
+    // it that is pinned counts; where all is, both are 0.
+    glm::dvec2 masses{0};
     bool triangles = false, self = false;
     std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
     std::vector<glm::vec4> shapes;    // shaders/contact/grid/shape.glsl
@@ -77,6 +80,9 @@ struct ContactPlan {
     // Whether molecules of a group may rest: its springs do not move by themselves.
     bool mayRest(const GroupPlan& group) const;
     size_t cells() const { return size_t(1) << tableBits; }  // of that table
+    // So many times its own mass a sphere carries at rest, with so many iterations; under more it sways, or
+    // what lies on it sinks in. Measured: docs/contact-figures.md.
+    static constexpr double carried(int iterations) { return 6.0 * iterations; }
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
     // it, and as friction that slides makes the matrix of the problem unsymmetric, much of it for long
@@ -91,7 +97,7 @@ struct ContactPlan {
 Gap largestGap(const Molecule& molecule, const GroupContact& contact);
 
 // Error (located at the group's contact): more spheres than 2^27, or than a label names; a radius that the
-// cell given does not hold.
+// cell given does not hold; masses that differ by more than a factor of 1e6.
 ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups);
 
 }  // namespace shoal

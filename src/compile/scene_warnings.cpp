@@ -139,6 +139,31 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
     }
 }
 
+// Warns of the heaviest on the lightest that contact moves, where something makes them lie on one another.
+void warnOfMasses(const Scene& scene, Plan& plan) {
+    const ContactPlan& contact = plan.contact;
+    if (!contact.remembers() || scene.gravity == glm::dvec3(0)) return;
+    const ContactGroup *light = nullptr, *heavy = nullptr;
+    for (const ContactGroup& group : contact.groups) {
+        if (group.masses.x == 0) continue;  // it is held
+        if (!light || group.masses.x < light->masses.x) light = &group;
+        if (!heavy || group.masses.y > heavy->masses.y) heavy = &group;
+    }
+    if (!light) return;
+    const double ratio = heavy->masses.y / light->masses.x;
+    if (ratio <= ContactPlan::carried(contact.settings.iterations)) return;
+    const double needed = std::ceil(ratio / ContactPlan::carried(1)), most = ContactSettings::mostIterations;
+    plan.warnings.push_back(
+        {scene.groups[plan.groups[heavy->group].index].contact->location,
+         concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", rounded(ratio),
+                " times as heavy as of \"", plan.groups[light->group].name,
+                "\": where it lies on that, it sinks in or sways",
+                needed > most
+                    ? concat(", since ", most, " \"iterations\", which are the most, carry ",
+                             ContactPlan::carried(ContactSettings::mostIterations), " times the mass")
+                    : concat(" with less than ", needed, " \"iterations\", and in a tower with more"))});
+}
+
 // Warns of a swimmer that does not lie along +Z or has no muscles; a point has neither.
 void warnOfSwimmers(const Scene& scene, const Group& group, const GroupPlan& plan,
                     std::vector<Warning>& warnings) {
@@ -208,6 +233,7 @@ void warnOf(const Scene& scene, Plan& plan) {
     }
     warnOfUnused(scene, plan);
     warnOfSpheres(scene, plan);
+    warnOfMasses(scene, plan);
     warnOfCrowds(scene, plan);
 }
 

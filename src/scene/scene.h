@@ -153,8 +153,9 @@ const char* name(ContactResponse response);
 struct ContactSettings {
     ContactSearch search = ContactSearch::exact;
     ContactResponse response = ContactResponse::simultaneous;
-    int neighbors = 8;              // of the UberFlow searches, to either side
-    int steps = 0;                  // contact steps of a frame; 0: one a substep
+    int neighbors = 8;  // of the UberFlow searches, to either side
+    int steps = 0;      // contact steps of a frame; 0: one a substep
+    static constexpr int mostIterations = 64;
     int iterations = 4;             // of the simultaneous response
     std::optional<double> fastest;  // m/s, relative to one another: none passes through another up to this
     std::optional<double> rest;     // m/s: what moves more slowly for a while rests; nothing: nothing does

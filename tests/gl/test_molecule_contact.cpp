@@ -3,6 +3,7 @@
 #include <random>
 
 #include "gl/marbles.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 
 namespace shoal {
@@ -403,6 +404,45 @@ TEST_CASE("the ping-pong path refuses what only the fused one has of contact", "
             simulationOn(Path::pingPong, compile(scene)),
             Catch::Contains("contact within a molecule") && Catch::Contains("needs the fused path"));
     }
+}
+
+// Masses up to which no warning comes, and eight times as much. The iterations of ping-pong know no
+// colliders.
+TEST_CASE("a marble carries so many times its mass as its iterations tell", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(fusedPaths()));
+    const int iterations = GENERATE(4, 16, 64);
+    if (iterations > 16 && path != Path::fused) return;  // half a minute
+    const double radius = 0.05, carried = ContactPlan::carried(iterations);
+    Scene scene;
+    for (const double ratio : {carried, 8 * carried}) {
+        Scene light = marbles({{double(scene.groups.size()), radius, 0}}, radius),
+              heavy = marbles({{double(scene.groups.size()), 3 * radius, 0}}, radius, ratio);
+        light.groups[0].name = concat("under ", ratio);
+        heavy.groups[0].name = concat(ratio);
+        for (Scene* part : {&light, &heavy})
+            scene.groups.push_back(part->groups[0]);
+    }
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.substeps = 4;
+    scene.contact.iterations = iterations;
+    scene.colliders.push_back({.name = "floor", .shape = PlaneCollider(), .restitution = 0, .friction = 0.5});
+    Simulation simulation = startedWith(scene, std::vector<dvec3>(4, dvec3(0)), glm::vec2(0, 0.5), path);
+    test::run(simulation, 240);
+    double fastest[2] = {}, deepest[2] = {};
+    for (int i = 0; i < 60; ++i) {
+        simulation.frame();
+        for (size_t stack = 0; stack < 2; ++stack) {
+            const Snapshot below = simulation.snapshot(2 * stack), above = simulation.snapshot(2 * stack + 1);
+            fastest[stack] = std::max({fastest[stack], glm::length(dvec3(below.velocities[0])),
+                                       glm::length(dvec3(above.velocities[0]))});
+            deepest[stack] = std::max(deepest[stack], 2 * radius - glm::distance(dvec3(below.positions[0]),
+                                                                                 dvec3(above.positions[0])));
+        }
+    }
+    CAPTURE(name(path), iterations, carried, fastest[1], deepest[1] / (2 * radius));
+    CHECK(fastest[0] < 1e-3);
+    CHECK(deepest[0] < 0.01 * 2 * radius);
+    CHECK(fastest[1] > 0.01);
 }
 
 }  // namespace shoal

@@ -223,6 +223,37 @@ TEST_CASE("what rests wakes when a slider or a field changes what acts on it", "
     }
 }
 
+// The larger of `rest` and of a tenth of what gravity adds in a contact step (docs/contact.md).
+TEST_CASE("what rests wakes by what changes its velocity by more than a threshold of two terms", "[rest]") {
+    if (!canFuse()) return;
+    const double step = 1 / 120.0;
+    const double rest = GENERATE(0.001, 0.02);
+    const double threshold = std::max(rest, 0.1 * 9.81 * step);  // m/s
+    const auto leastResting = [&](double part) {
+        const double friction = 0.05;
+        Scene scene = marbles({{0, 0.05, 0}}, friction);
+        scene.contact.rest = rest;
+        scene.groups[0].drag = {2, 2};
+        // friction holds the marble until it rests, at a phase of 0.1 rad; in the end that is pi / 2
+        OscillatingField wind;
+        wind.velocity = {0, 0, (part * threshold / step + friction * 9.81) / 2};
+        wind.frequency = 0.05;
+        scene.fields.emplace_back().shape = wind;
+        Simulation simulation = fusedOf(scene);
+        run(simulation, 40);
+        REQUIRE(resting(simulation) == 1);
+        size_t least = 1;
+        for (int i = 0; i < 270; ++i) {
+            run(simulation, 1);
+            least = std::min(least, resting(simulation));
+        }
+        return least;
+    };
+    CAPTURE(rest);
+    CHECK(leastResting(0.95) == 1);
+    CHECK(leastResting(1.25) == 0);
+}
+
 TEST_CASE("where nothing rests a warning says so", "[rest]") {
     const Scene scene = marbles({{0, 0.05, 0}});
     const Simulation simulation(testContext(), compile(scene), {.drawn = false, .path = Path::pingPong});

@@ -36,11 +36,13 @@ char running[200];  // name of a test
 // Takes no memory, since what crashed may have been within malloc.
 [[noreturn]] void end(int signal) {
     const auto print = [](const char* text) { (void)!::write(STDERR_FILENO, text, std::strlen(text)); };
-    print(signal == SIGALRM ? "\nThis test hangs: " : "\nThis test crashes: ");
-    print(running);
-    print("\nIt is here:\n");
     void* frames[64];
     ::backtrace_symbols_fd(frames, ::backtrace(frames, 64), STDERR_FILENO);
+    // Last, where a log that was cut still has it, with the innermost frames once more.
+    print(signal == SIGALRM ? "This test hangs: " : "This test crashes: ");
+    print(running);
+    print(", here:\n");
+    ::backtrace_symbols_fd(frames, ::backtrace(frames, 12), STDERR_FILENO);
     ::_exit(1);
 }
 

@@ -99,6 +99,46 @@ TEST_CASE("contact that is probably not meant is warned of", "[contact plan]") {
     CHECK(warns(scene, "no group has \"contact\""));
 }
 
+TEST_CASE("what is too heavy for what it may come to lie on is told", "[contact plan]") {
+    const auto heavier = [](double ratio, int iterations) {
+        Scene scene = leavesOf(0.05);
+        scene.gravity = {0, -9.81, 0};
+        scene.contact.iterations = iterations;
+        for (Vertex& vertex : scene.groups[0].molecule.vertices)
+            vertex.mass = 0.5;
+        Group heavy = scene.groups[0];
+        heavy.name = "iron";
+        heavy.molecule.vertices.back().mass = 0.5 * ratio;
+        scene.groups.push_back(heavy);
+        return scene;
+    };
+    const auto warning = [](const Scene& scene) {
+        for (const Warning& each : compile(scene).warnings)
+            if (each.message.find("times as heavy") != std::string::npos) return each.message;
+        return std::string();
+    };
+    CHECK(warning(heavier(24, 4)).empty());
+    CHECK(warning(heavier(95, 16)).empty());
+    CHECK(warning(heavier(95, 15)) ==
+          "what contact moves of \"iron\" is 95 times as heavy as of \"leaves\": where it lies on that, it "
+          "sinks "
+          "in or sways with less than 16 \"iterations\", and in a tower with more");
+    CHECK_THAT(warning(heavier(1000, 64)),
+               Catch::Contains("64 \"iterations\", which are the most, carry 384 times"));
+    Scene scene = heavier(1000, 4);
+    scene.gravity = dvec3(0);
+    CHECK(warning(scene).empty());
+    scene = heavier(1000, 4);
+    for (Vertex& vertex : scene.groups[1].molecule.vertices)
+        vertex.pinned = true;
+    CHECK(warning(scene).empty());
+    scene = heavier(1e6, 4);
+    CHECK(messageOf([&] { compile(scene); }).empty());
+    scene = heavier(1.1e6, 4);
+    CHECK_THAT(messageOf([&] { compile(scene); }),
+               Catch::Contains("what contact moves of \"iron\" is 1.1e+06 times as heavy as of \"leaves\""));
+}
+
 TEST_CASE("contact's mistakes are told", "[contact plan]") {
     Scene scene = leavesOf(0.1);
     scene.contact.cell = 0.3;
