@@ -145,8 +145,11 @@ bool ContactPlan::mayRest(const GroupPlan& group) const {
 }
 
 float ContactPlan::momentum(int iteration, int iterations) {
-    const float most = std::min(0.8f, 1 - 1.6f / float(iterations));
-    return iteration == 0 ? 0 : std::clamp(0.8f - 0.05f * float(iteration - 7), 0.0f, most);
+    return iteration == 0 ? 0 : std::max(std::min(0.8f, 1 - 1.6f / float(iterations)), 0.0f);
+}
+
+double ContactPlan::carried(int iterations) {
+    return 2.5 * iterations / (1 - double(momentum(1, iterations)));
 }
 
 double ContactPlan::safeSpeed(double frameTime) const {

@@ -82,11 +82,10 @@ struct ContactPlan {
     size_t cells() const { return size_t(1) << tableBits; }  // of that table
     // So many times its own mass a sphere carries at rest, with so many iterations; under more it sways, or
     // what lies on it sinks in. Measured: docs/contact-figures.md.
-    static constexpr double carried(int iterations) { return 6.0 * iterations; }
+    static double carried(int iterations);
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
-    // it, and as friction that slides makes the matrix of the problem unsymmetric, much of it for long
-    // diverges.
+    // it, and where friction slides 0.9 of it does not converge.
     static float momentum(int iteration, int iterations);
     // m/s: spheres that move faster relative to one another may pass through each other between two contact
     // steps.

@@ -152,7 +152,10 @@ void warnOfMasses(const Scene& scene, Plan& plan) {
     if (!light) return;
     const double ratio = heavy->masses.y / light->masses.x;
     if (ratio <= ContactPlan::carried(contact.settings.iterations)) return;
-    const double needed = std::ceil(ratio / ContactPlan::carried(1)), most = ContactSettings::mostIterations;
+    constexpr int most = ContactSettings::mostIterations;
+    int needed = 1;
+    while (needed <= most && ContactPlan::carried(needed) < ratio)
+        ++needed;
     plan.warnings.push_back(
         {scene.groups[plan.groups[heavy->group].index].contact->location,
          concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", rounded(ratio),
@@ -160,7 +163,7 @@ void warnOfMasses(const Scene& scene, Plan& plan) {
                 "\": where it lies on that, it sinks in or sways",
                 needed > most
                     ? concat(", since ", most, " \"iterations\", which are the most, carry ",
-                             ContactPlan::carried(ContactSettings::mostIterations), " times the mass")
+                             ContactPlan::carried(most), " times the mass")
                     : concat(" with less than ", needed, " \"iterations\", and in a tower with more"))});
 }
 

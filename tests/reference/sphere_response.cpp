@@ -69,7 +69,7 @@ double sharedBy(const dmat3& sum, int number) {
 
 double momentum(int iteration, int iterations) {
     if (iteration == 0) return 0;
-    return std::clamp(0.8 - 0.05 * (iteration - 7), 0.0, std::min(0.8, 1 - 1.6 / iterations));
+    return std::max(std::min(0.8, 1 - 1.6 / iterations), 0.0);
 }
 
 class Response {
