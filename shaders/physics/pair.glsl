@@ -48,7 +48,7 @@ struct PairImpact {
     bool happens;  // within that time; else the others say nothing
 };
 
-// What overlaps when that time begins, and approaches, has its impact then. Exchanged, the two give the same to the bit.
+// Spheres that overlap when that time begins, and approach, have their impact then. Exchanged, the two give the same to the bit.
 PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, float side)
 {
     vec3 start = d - u * time;

@@ -47,7 +47,7 @@ class ContactImpacts {
             if (!haveMet(slot, other) && !isClosed(other, isStruck(slot, other))) own.choice = impact;
         }
     }
-    // Those happen that both have chosen.
+    // An impact happens that both have chosen.
     void strike(int slot, uint32_t round, const ContactBaselineStep& step);
 
     bool isStruck(int slot, int other) const {

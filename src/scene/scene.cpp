@@ -77,15 +77,13 @@ const Description& describe(const ContactSettings*) {
                  "The speed of two spheres relative to one another up to which they do not pass through each "
                  "other between two contact steps; without it a diameter of the smaller one a step.",
                  aboveZero()})
-            .key(
-                "rest", &S::rest,
-                {"m/s",
-                 "The speed below which a molecule comes to rest when none of its vertices has got further "
-                 "in a quarter of a second. It then costs next to nothing until something wakes it: an "
-                 "impact "
-                 "that reaches it, or what would change its velocity in a contact step by more than this, or "
-                 "than a tenth of what gravity does where that is more. Without it none rests.",
-                 aboveZero()})
+            .key("rest", &S::rest,
+                 {"m/s",
+                  "The speed below which a molecule comes to rest when none of its vertices has got further "
+                  "in a quarter of a second. It then costs next to nothing until something wakes it: an "
+                  "impact that reaches it, or what would change its velocity in a contact step by more than "
+                  "this, or than a tenth of what gravity does where that is more. Without it none rests.",
+                  aboveZero()})
             .key("cell", &S::cell,
                  {"m",
                   "The size of a cell, at least 4.1 times the largest radius, and more with `fastest`; "

@@ -1,6 +1,7 @@
 #include "gl/marbles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace shoal::test {
 
@@ -33,6 +34,41 @@ Simulation startedWith(const Scene& scene, const std::vector<glm::dvec3>& veloci
         for (glm::vec3& v : group.start.velocities)
             v = glm::vec3(velocities[next++]);
     return simulationOn(path, std::move(plan));
+}
+
+void Clusters::add(size_t mass, const glm::dvec3& place, const glm::dvec3& velocity, size_t cluster) {
+    places_[mass].push_back(place);
+    velocities_[mass].push_back(velocity);
+    owners_[mass].push_back(cluster);
+}
+
+Scene Clusters::scene(double radius, double factor) const {
+    Scene out;
+    for (size_t mass = 0; mass < places_.size(); ++mass) {
+        Scene part = marbles(places_[mass], radius, std::pow(factor, double(mass)));
+        part.groups[0].name = concat("mass ", mass);
+        if (mass == 0)
+            out = part;
+        else
+            out.groups.push_back(part.groups[0]);
+    }
+    return out;
+}
+
+template <typename T>
+static std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
+    std::vector<T> out;
+    for (const std::vector<T>& part : parts)
+        out.insert(out.end(), part.begin(), part.end());
+    return out;
+}
+
+std::vector<glm::dvec3> Clusters::velocities() const {
+    return joined(velocities_);
+}
+
+std::vector<size_t> Clusters::owners() const {
+    return joined(owners_);
 }
 
 std::vector<reference::Sphere> spheresOf(const Plan& plan) {

@@ -24,6 +24,22 @@ Simulation startedWith(const Scene& scene, const std::vector<glm::dvec3>& veloci
 std::vector<reference::Sphere> spheresOf(const Plan& plan);
 // Returns the pairs of `some` that `all` lacks.
 Pairs missing(const Pairs& all, const Pairs& some);
+// Marbles in clusters that are far from one another, a group of them for each mass.
+class Clusters {
+  public:
+    explicit Clusters(size_t masses) : places_(masses), velocities_(masses), owners_(masses) {}
+
+    void add(size_t mass, const glm::dvec3& place, const glm::dvec3& velocity, size_t cluster);
+    // `factor`: of each mass to the last; the first is 1 kg.
+    Scene scene(double radius, double factor) const;
+    // As statesOf() has the marbles.
+    std::vector<glm::dvec3> velocities() const;
+    std::vector<size_t> owners() const;
+
+  private:
+    std::vector<std::vector<glm::dvec3>> places_, velocities_;
+    std::vector<std::vector<size_t>> owners_;
+};
 // Quads strewn over a box, with contact.
 Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale = {1, 1});
 // Positions and velocities of all groups of points, in their order.

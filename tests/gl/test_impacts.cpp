@@ -129,41 +129,28 @@ TEST_CASE("no cluster of marbles gains energy from an impact, or momentum", "[im
         return std::uniform_real_distribution<double>(a, b)(random);
     };
     constexpr size_t masses = 7;
-    std::vector<std::vector<dvec3>> places(masses), velocities(masses);
-    std::vector<std::vector<int>> owners(masses);
+    Clusters built(masses);
     for (int c = 0; c < clusters; ++c) {
         const int count = 2 + int(random() % 59);
         const double side = 0.2 * std::cbrt(count) * between(0.75, 1.3), heaviest = between(0, masses);
         const dvec3 corner(4 * (c % 50), 4 * (c / 50), 0);
         for (int i = 0; i < count; ++i) {
             const auto mass = size_t(between(0, heaviest));
-            places[mass].push_back(corner + dvec3(between(0, side), between(0, side), between(0, side)));
-            velocities[mass].emplace_back(between(-1, 1), between(-1, 1), between(-1, 1));
-            owners[mass].push_back(c);
+            const dvec3 place = corner + dvec3(between(0, side), between(0, side), between(0, side));
+            const dvec3 velocity(between(-1, 1), between(-1, 1), between(-1, 1));
+            built.add(mass, place, velocity, size_t(c));
         }
     }
-    Scene scene;
-    std::vector<dvec3> allVelocities;
-    std::vector<int> allOwners;
-    for (size_t mass = 0; mass < masses; ++mass) {
-        Scene part = marbles(places[mass], 0.1, std::pow(10, 0.5 * double(mass)));
-        part.groups[0].name = concat("mass ", mass);
-        if (mass == 0)
-            scene = part;
-        else
-            scene.groups.push_back(part.groups[0]);
-        allVelocities.insert(allVelocities.end(), velocities[mass].begin(), velocities[mass].end());
-        allOwners.insert(allOwners.end(), owners[mass].begin(), owners[mass].end());
-    }
+    Scene scene = built.scene(0.1, std::sqrt(10));
+    const std::vector<size_t> owners = built.owners();
     scene.contact.iterations = iterations;
     const vec2 material(float(between(0, 1)), float(between(0, 1)));
-    Simulation simulation = startedWith(scene, allVelocities, material, path);
+    Simulation simulation = startedWith(scene, built.velocities(), material, path);
     const auto sums = [&] {
         std::vector<glm::dvec4> out(clusters, glm::dvec4(0));
         const std::vector<reference::Sphere> spheres = statesOf(simulation);
         for (size_t i = 0; i < spheres.size(); ++i)
-            out[size_t(allOwners[i])] +=
-                glm::dvec4(spheres[i].velocity / spheres[i].weight, energy(spheres[i]));
+            out[owners[i]] += glm::dvec4(spheres[i].velocity / spheres[i].weight, energy(spheres[i]));
         return out;
     };
     const std::vector<glm::dvec4> before = sums();

@@ -1,5 +1,5 @@
-// Contact against another method that has converged: projected Gauss-Seidel in double precision, a contact at a
-// time [Jean and Moreau 1992, Unilaterality and dry friction in the dynamics of rigid body collections].
+// Contact against another method that has converged: projected Gauss-Seidel in double precision, a contact at
+// a time [Jean and Moreau 1992, Unilaterality and dry friction in the dynamics of rigid body collections].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -87,50 +87,37 @@ struct Errors {
     size_t judged = 0;
 };
 
-// 100 clusters of 2 to 60 spheres that overlap and approach one another too slowly for an impact, whose masses
-// differ by a factor of up to `ratio`: one step of contact.
+// 100 clusters of 2 to 60 spheres that overlap and approach one another too slowly for an impact, whose
+// masses differ by a factor of up to `ratio`: one step of contact.
 Errors errorsOf(Path path, double ratio, double friction, int iterations) {
     constexpr size_t clusters = 100, masses = 4;
     std::mt19937 random(5);
     const auto between = [&](double a, double b) {
         return std::uniform_real_distribution<double>(a, b)(random);
     };
-    std::vector<std::vector<dvec3>> places(masses), velocities(masses);
-    std::vector<std::vector<size_t>> owners(masses);
+    Clusters built(masses);
     for (size_t c = 0; c < clusters; ++c) {
         const int count = 2 + int(random() % 59);
         const double side = 1.5 * radius * std::cbrt(count);
         for (int i = 0; i < count; ++i) {
             const size_t mass = random() % masses;
-            places[mass].push_back(dvec3(4 * double(c % 10), 4 * double(c / 10), 0) +
-                                   dvec3(between(0, side), between(0, side), between(0, side)));
-            velocities[mass].emplace_back(between(-0.05, 0.05), between(-0.05, 0.05), between(-0.05, 0.05));
-            owners[mass].push_back(c);
+            const dvec3 place = dvec3(4 * double(c % 10), 4 * double(c / 10), 0) +
+                                dvec3(between(0, side), between(0, side), between(0, side));
+            const dvec3 velocity(between(-0.05, 0.05), between(-0.05, 0.05), between(-0.05, 0.05));
+            built.add(mass, place, velocity, c);
         }
     }
-    Scene scene;
-    std::vector<dvec3> allVelocities;
-    std::vector<size_t> allOwners;
-    for (size_t mass = 0; mass < masses; ++mass) {
-        Scene part = marbles(places[mass], radius, std::pow(ratio, double(mass) / (masses - 1)));
-        part.groups[0].name = concat("mass ", mass);
-        if (mass == 0)
-            scene = part;
-        else
-            scene.groups.push_back(part.groups[0]);
-        allVelocities.insert(allVelocities.end(), velocities[mass].begin(), velocities[mass].end());
-        allOwners.insert(allOwners.end(), owners[mass].begin(), owners[mass].end());
-    }
+    Scene scene = built.scene(radius, std::pow(ratio, 1.0 / (masses - 1)));
+    const std::vector<size_t> owners = built.owners();
     setSteps(scene, step, 1);
     scene.gravity = {0, -gravity, 0};
     scene.contact.iterations = iterations;
-    Simulation simulation =
-        startedWith(scene, allVelocities, glm::vec2(0, float(friction)), path);
+    Simulation simulation = startedWith(scene, built.velocities(), glm::vec2(0, float(friction)), path);
     std::vector<Cluster> judged(clusters);
     const std::vector<reference::Sphere> before = statesOf(simulation);
     for (size_t i = 0; i < before.size(); ++i) {
-        judged[allOwners[i]].spheres.push_back(before[i]);
-        judged[allOwners[i]].numbers.push_back(i);
+        judged[owners[i]].spheres.push_back(before[i]);
+        judged[owners[i]].numbers.push_back(i);
     }
     simulation.frame();
     CHECK(simulation.contact()->dropped() == 0);
@@ -159,9 +146,9 @@ TEST_CASE("contact converges to what projected Gauss-Seidel does", "[molecule co
         int iterations;
         double median, worst;
     };
-    const Bound bound = GENERATE(Bound{1, 0, 4, 0.25, 0.4}, Bound{1, 0, 16, 0.04, 0.08}, Bound{1, 0, 64, 2e-4, 0.02},
-                                 Bound{1, 0.5, 64, 0.003, 0.05}, Bound{100, 0, 64, 0.008, 0.3},
-                                 Bound{100, 0.5, 64, 0.04, 0.4});
+    const Bound bound = GENERATE(Bound{1, 0, 4, 0.25, 0.4}, Bound{1, 0, 16, 0.04, 0.08},
+                                 Bound{1, 0, 64, 2e-4, 0.02}, Bound{1, 0.5, 64, 0.003, 0.05},
+                                 Bound{100, 0, 64, 0.008, 0.3}, Bound{100, 0.5, 64, 0.04, 0.4});
     const Errors errors = errorsOf(path, bound.ratio, bound.friction, bound.iterations);
     CAPTURE(name(path), bound.ratio, bound.friction, bound.iterations);
     CHECK(errors.judged >= 97);

@@ -159,7 +159,7 @@ class Response {
         return out;
     }
 
-    // Of each sphere the earliest impact counts, where it is that of the other as well.
+    // The earliest impact of each sphere counts, where it is that of the other as well.
     void strike() {
         std::vector<Impact> earliest(spheres_->size());
         for (size_t i = 0; i < meetings_.size(); ++i) {

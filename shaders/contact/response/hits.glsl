@@ -9,8 +9,8 @@ bool isStruck(int slot)
     return impactsAt(slot, 0).w != NEVER;
 }
 
-// For how long it has moved straight, s, in a step of so long.
-float straightTimeOf(int slot, float stepTime)
+// For how long it has moved straight in this step, s.
+float straightTimeOf(int slot)
 {
     return min(uintBitsToFloat(impactsAt(slot, 0).w), stepTime);
 }

@@ -9,8 +9,8 @@ const uint NOBODY = 0xffffffffu;
 float straightTime(int slot, int other, Sphere sphere)
 {
     if (isFirst) return stepTime;
-    float time = straightTimeOf(slot, stepTime);
-    return sphere.weight > 0.0 ? min(time, straightTimeOf(other, stepTime)) : time;
+    float time = straightTimeOf(slot);
+    return sphere.weight > 0.0 ? min(time, straightTimeOf(other)) : time;
 }
 
 bool areStruck(int slot, int other, Sphere sphere)
@@ -41,7 +41,7 @@ vec3 impulseOf(PairImpact impact, Sphere sphere)
     return withinFriction(impulse, impact.normal, material.y);
 }
 
-// What an impact changes of a slot.
+// All of a slot that an impact changes.
 struct Struck {
     uvec4 place;
     uvec4 motion;

@@ -1,4 +1,4 @@
-// What a slot remembers of its contacts in the last step.
+// The contacts of the last step that a slot remembers.
 #include "contact/response/pair.glsl"
 #include "contact/response/memory.glsl"
 #pragma reads oldImpulses oldAnchors keptImpulses keptAnchors

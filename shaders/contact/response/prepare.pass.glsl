@@ -27,7 +27,7 @@ float carriedOver(float before, float depth)
     return depth > 0.0 ? 0.7 * before : 0.0;
 }
 
-// Whether an impact was left over by the rounds (contact/response/impacts.pass.glsl), or is to come. What would bounce too little for
+// Whether an impact was left over by the rounds (contact/response/choose.pass.glsl), or is to come. What would bounce too little for
 // an impact is answered like what rests.
 bool waits(Pair pair, ContactImpulse old, bool struck)
 {
