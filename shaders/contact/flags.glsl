@@ -14,6 +14,12 @@ bool isActedOn(uint counted)
     return (counted & ~RESPONDS) != 0u;
 }
 
+// Returns a count beside numbers, as one that is no denormal, which a GPU may take for 0.
+float asMemory(uint counted)
+{
+    return uintBitsToFloat(counted | RESPONDS);
+}
+
 // With a number that is never negative, as bits: of a sphere's 1/mass, that its molecule has been born since the last step, and
 // remembers nothing; of its radius, that its molecule rests; of a collider's friction, that it has restitution.
 const uint FLAG = 0x80000000u;

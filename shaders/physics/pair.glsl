@@ -6,41 +6,22 @@
 const float restingOverlap = 0.005f;
 
 struct PairContact {
-    vec3 normal;   // unit, from the other sphere to this one
-    float since;   // s, since they touched; 0 without an impact
-    float depth;   // m, of what overlaps now
-    float speed;   // m/s, along the normal; negative: they approach (or did, at the first touch)
-    bool impact;   // they first touched within the last step, fast enough to bounce
+    vec3 normal;  // unit, from the other sphere to this one
+    float depth;  // m, of what overlaps
+    float speed;  // m/s, along the normal; negative: they approach
 };
 
-// Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii
-// sum up to `reach`. In the last `step` they moved by u; where they touched then, that is the impact (UberFlow, section
-// 4.5: backed up in time to the first contact), even if they have passed through each other since; else they rest on
-// one another. Slower than `restSpeed` counts as rest. `side`: 1 for one of the two, -1 for the other; where centres
-// coincide it decides.
-PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
+// Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii sum up to `reach`.
+// `side`: 1 for one of the two, -1 for the other; where centres coincide it decides.
+PairContact pairContact(vec3 d, vec3 u, float reach, float side)
 {
-    float squared = dot(d, d);
-    float along = dot(d, u);
-    float fast = dot(u, u);
-    float inside = reach * reach - squared;
-    float under = along * along + fast * inside;
-    bool met = inside > 0.0f || (along > 0.0f && under > 0.0f);
-    // |d - u t| = reach, the root of which nothing cancels
-    float root = sqrt(max(under, 0.0f));
-    float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
-    vec3 touch = (d - u * since) / reach;
-    float touchSpeed = dot(touch, u);
-    // An impact that the last step missed by a rounding of the positions counts in this step.
-    bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
-
-    float apart = sqrt(squared);
+    float apart = sqrt(dot(d, d));
     vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
-    return PairContact(impact ? touch : direction, impact ? since : 0.0f, reach - apart,
-                       impact ? touchSpeed : dot(direction, u), impact);
+    return PairContact(direction, reach - apart, dot(direction, u));
 }
 
-// The next impact of two spheres of which both have moved straight for the last `time` s, to be d apart now.
+// The next impact of two spheres of which both have moved straight for the last `time` s, to be d apart now (UberFlow, section 4.5: backed
+// up in time to the first contact), even if they have passed through each other since.
 struct PairImpact {
     vec3 normal;   // unit, from the other sphere to this one, when they touch
     float since;   // s, since then

@@ -6,12 +6,12 @@
 
 namespace shoal::reference {
 
-// Whether two spheres that were apart `step` s ago have touched since.
+// Whether two spheres that approached `step` s ago have touched since.
 static bool haveMet(const Sphere& a, const Sphere& b, double step) {
     const glm::dvec3 d = a.position - b.position, u = a.velocity - b.velocity;
     const double fast = glm::dot(u, u), reach = a.radius + b.radius;
     const double nearest = fast > 0 ? std::clamp(glm::dot(d, u) / fast, 0.0, step) : 0;
-    return glm::length(d - u * step) >= reach && glm::length(d - u * nearest) < reach;
+    return glm::dot(d - u * step, u) < 0 && glm::length(d - u * nearest) < reach;
 }
 
 std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres, double step) {

@@ -16,7 +16,7 @@ struct Sphere {
 };
 
 // All in contact (ContactPlan::near), of different molecules: first below second. O(n^2). Beside them those
-// that were apart `step` s ago and have touched since, as their velocities now tell.
+// that approached `step` s ago and have touched since, as their velocities now tell.
 std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres, double step = 0);
 
 }  // namespace shoal::reference

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <random>
 
+#include "gl/agreement.h"
 #include "gl/marbles.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
@@ -165,6 +166,78 @@ TEST_CASE("no cluster of marbles gains energy from an impact, or momentum", "[im
     CHECK(simulation.contact()->dropped() == 0);
     CHECK(most < 1 + 1e-5);
     CHECK(lost < 1e-4);
+}
+
+// The same of tetrahedra that move as rigid bodies, and of sheets whose triangles have spheres.
+TEST_CASE("no cluster of bodies or sheets gains energy from an impact, or momentum", "[impacts]") {
+    if (!canFuse()) return;
+    const Path path = GENERATE(Path::fused, Path::fragments);
+    const bool rigid = GENERATE(true, false);
+    const int iterations = GENERATE(1, 4, 12);
+    constexpr int clusters = 600;
+    std::mt19937 random(unsigned(iterations) * 3 + rigid);
+    const auto between = [&](double a, double b) {
+        return std::uniform_real_distribution<double>(a, b)(random);
+    };
+    Molecule molecule = rigid ? leaf(1e6, 0) : sheet(3, 3, false);
+    if (rigid) {
+        const dvec3 corners[] = {{0, 0, 0}, {0.5, 0, 0}, {0.25, 0, 0.43}, {0.25, 0.4, 0.14}};
+        for (size_t i = 0; i < 4; ++i)
+            molecule.vertices[i].position = corners[i];
+    }
+    for (Spring& spring : molecule.springs)
+        spring.actuation.reset();
+    std::vector<Item> items;
+    std::vector<dvec3> velocities;
+    std::vector<size_t> owners;
+    const size_t vertices = molecule.vertices.size();
+    for (int c = 0; c < clusters; ++c) {
+        const int count = 2 + int(random() % 7);
+        const double side = 0.5 * std::cbrt(count) * between(0.7, 1.3);
+        const dvec3 corner(6 * (c % 25), 6 * (c / 25), 0);
+        for (int i = 0; i < count; ++i) {
+            const glm::dquat turn(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1));
+            items.push_back(at(corner + dvec3(between(0, side), between(0, side), between(0, side)),
+                               glm::normalize(turn)));
+            const dvec3 velocity(between(-1, 1), between(-1, 1), between(-1, 1));
+            velocities.insert(velocities.end(), vertices, velocity);
+            owners.push_back(size_t(c));
+        }
+    }
+    Scene scene = sceneOf(molecule, rigid ? SolverKind::bdf2Xpbd : SolverKind::leapfrog, items);
+    scene.groups[0].contact.emplace().radius = 0.1;
+    scene.groups[0].contact->triangles = !rigid;
+    scene.contact.iterations = iterations;
+    setSteps(scene, 0.01, rigid ? 1 : 4);
+    scene.contact.steps = 1;
+    const bool elastic = GENERATE(false, true);
+    const vec2 material = elastic ? vec2(1, 0) : vec2(float(between(0, 1)), float(between(0, 1)));
+    Simulation simulation = startedWith(scene, velocities, material, path);
+    REQUIRE(simulation.plan().groups[0].rigid == rigid);
+    const auto sums = [&] {
+        std::vector<glm::dvec4> out(clusters, glm::dvec4(0));
+        const Snapshot snapshot = simulation.snapshot(0);
+        for (size_t i = 0; i < snapshot.velocities.size(); ++i) {
+            const dvec3 v = snapshot.velocities[i];
+            const double mass = molecule.vertices[i % vertices].mass;
+            out[owners[i / vertices]] += mass * glm::dvec4(v, glm::dot(v, v) / 2);
+        }
+        return out;
+    };
+    const std::vector<glm::dvec4> before = sums();
+    simulation.frame();
+    const std::vector<glm::dvec4> after = sums();
+    double most = 0, least = 1, lost = 0;
+    for (size_t c = 0; c < clusters; ++c) {
+        most = std::max(most, after[c].w / before[c].w);
+        least = std::min(least, after[c].w / before[c].w);
+        lost = std::max(lost, glm::length(dvec3(after[c]) - dvec3(before[c])) / std::sqrt(before[c].w));
+    }
+    CAPTURE(name(path), rigid, iterations, material.x, material.y, most, least, lost);
+    CHECK(simulation.contact()->dropped() == 0);
+    CHECK(most < 1 + 1e-5);
+    CHECK((least > 1 - 1e-5) == elastic);
+    CHECK(lost < 1e-5);
 }
 
 }  // namespace shoal

@@ -237,9 +237,10 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
     });
     forFacts(remembers, {&Facts::rests, &Facts::colliders, &Facts::spreads, &Facts::rigid},
              [&](const Facts& facts) {
-                 for (const char* pass : {"prepare", "solve", "store"})
+                 for (const char* pass : {"choose", "strike", "prepare", "solve", "store"})
                      add(concat("response/", pass), facts);
-                 add("response/solve", facts, {}, {"FIRST"});
+                 for (const char* pass : {"choose", "solve"})
+                     add(concat("response/", pass), facts, {}, {"FIRST"});
              });
     const Facts spreads = {.remembers = true, .spreads = true, .colliders = true, .rigid = true};
     forFacts(GroupFacts(), {&GroupFacts::triangles, &GroupFacts::rigid}, [&](GroupFacts group) {

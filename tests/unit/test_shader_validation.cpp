@@ -101,11 +101,12 @@ TEST_CASE("the passes of contact in fragments are sound in desktop and in embedd
         add("search/neighbors", facts, {}, {"SECOND_GRID"});
     });
     forFacts(remembers, {&Facts::colliders, &Facts::spreads, &Facts::rigid}, [&](const Facts& facts) {
-        for (const char* pass : {"prepare", "solve", "store"})
+        for (const char* pass : {"choose", "strike", "prepare", "solve", "store"})
             add(concat("response/", pass), facts);
         for (const char* pass : {"prepare", "solve"})
             add(concat("response/", pass), facts, {}, {"ENTRIES"});
-        add("response/solve", facts, {}, {"FIRST"});
+        for (const char* pass : {"choose", "solve"})
+            add(concat("response/", pass), facts, {}, {"FIRST"});
     });
     const Defines sizes = {
         "LAYERED",    "STATE_WIDTH 1024", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6",

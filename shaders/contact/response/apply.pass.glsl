@@ -20,7 +20,7 @@ void add(int molecule, int vertex, Total change)
     setStateVector(first, 0, vertex, place);
     setMotion(first, vertex, v, length(v) < restSpeed, v * substepTime);
     int sphere = moleculeSphere(molecule) + vertex;
-    putLoads(sphere, loadOf(sphere, change, stepTime));
+    putLoads(sphere, loadOf(sphere, change, v, stepTime));
 }
 
 #ifdef MANY

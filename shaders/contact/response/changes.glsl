@@ -36,13 +36,14 @@ vec3 velocityBefore(int sphere)
     return uintBitsToFloat(inTextures ? motionsAt(slotOf(sphere)).xyz : sphereMotionsAt(sphere).xyz);
 }
 
-// Returns the load on a sphere's vertex over the next step (contact/arrays.txt). Contact alone holds it off the colliders if its body touches
-// others, and it is so slow that it reaches none that is not known as near (contact/grid/near_colliders.glsl).
-vec4 loadOf(int sphere, Total change, float stepTime)
+// Returns the load on a sphere's vertex over the next step (contact/arrays.txt), of which `velocity` is that after contact, m/s. Contact alone
+// holds it off the colliders if its body touches others, and it is so slow that it reaches none that is not known as near
+// (contact/grid/near_colliders.glsl).
+vec4 loadOf(int sphere, Total change, vec3 velocity, float stepTime)
 {
     int slot = slotOf(sphere);
     bool isHeld = RIGID && uintBitsToFloat(effectiveCountsAt(slot)) > 0.0 &&
-                  length(velocityBefore(sphere) + change.impulse) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
+                  length(velocity) * stepTime < 0.25 * withoutFlag(cellsAt(slot).w);
     return vec4(change.load / stepTime, isHeld ? HELD_BY_CONTACT : AWAKE);
 }
 

@@ -1,51 +1,36 @@
 // Impacts in their order (docs/contact.md), in rounds of two passes before the other stages of the response. In this one each slot chooses
-// the earliest impact that it may still have in this step, of which strike.pass.glsl lets those happen that both spheres have chosen. FIRST is
-// the first choice of a step: with buffers two spheres that touch nothing else have their impact there, and all others that choose are
-// listed for the rounds.
+// the earliest impact that it may still have in this step, of which strike.pass.glsl lets those happen that are the next of both molecules.
+// FIRST is the first choice of a step: with buffers two spheres that touch nothing else, and move nothing else, have their impact there, and
+// all others that choose are listed for the rounds.
 #ifdef FIRST
 #pragma updates places sphereMotions impactRounds impactGroups
 #pragma writes impacts impactSlots
 const bool isFirst = true;
 #else
+#pragma updates impactGroups
 const bool isFirst = false;
 #endif
 #pragma writes choices
 #include "contact/response/impact.glsl"
-#pragma reads impactRounds impactSlots impactGroups
+#pragma reads impactRounds impactSlots
 
-// Whether the impact of a slot with one other comes before that with another; both happen.
-bool isBefore(PairImpact a, PairImpact b, int slot, int otherOfA, int otherOfB)
+Choice choose(int slot)
 {
-    if (a.since != b.since) return a.since > b.since;
-    if (a.speed != b.speed) return a.speed < b.speed;
-    int own = sphereOf(slot);
-    ivec2 others = ivec2(sphereOf(otherOfA), sphereOf(otherOfB));
-    ivec2 first = min(ivec2(own), others);
-    ivec2 second = max(ivec2(own), others);
-    return first.x < first.y || (first.x == first.y && second.x < second.y);
-}
-
-// Returns the slot with which the own one has its earliest impact, and its entry, or NOBODY.
-uvec2 choose(int slot)
-{
-    uvec2 choice = uvec2(NOBODY, 0u);
-    PairImpact best = PairImpact(vec3(0.0), 0.0, 0.0, false);
+    Choice best = noChoice;
     int listed = own.weight > 0.0 ? listedOf(slot) : 0;
     for (int e = 0; e < listed; ++e) {
         int other = int(listsAt(slot, e));
         Sphere sphere = sphereAt(other);
         PairImpact impact = impactOf(slot, other, sphere);
-        bool isEarlier = impact.happens && (!best.happens || isBefore(impact, best, slot, other, int(choice.x)));
+        Choice next = Choice(uint(other), uint(e), impact.since, impact.speed);
+        bool isEarlier = impact.happens && (best.other == NOBODY || isBefore(slot, next, slot, best));
         while (isEarlier) {  // rare (contact/search/find.pass.glsl)
             loadMemory(slot);
-            if (!haveMet(slot, other, sphere) && !isClosed(oldContact(other), areStruck(slot, other, sphere))) {
-                choice = uvec2(other, e);
-                best = impact;
-            }
+            if (!haveMet(slot, other, sphere) && !isClosed(oldContact(other), areStruck(slot, other, sphere))) best = next;
             isEarlier = false;
         }
     }
-    return choice;
+    return best;
 }
 
 #ifdef TEXTURES
@@ -54,7 +39,7 @@ void main()
     int slot = ownNumber();
     if (slot >= count) discard;
     loadSphere(slot);
-    putChoices(slot, choose(slot));
+    putChoices(slot, packedChoice(choose(slot)));
 #ifdef FIRST
     putAllImpacts(slot, uvec4[3](NO_IMPACT, uvec4(0u), uvec4(0u)));
 #endif
@@ -62,10 +47,10 @@ void main()
 #elif defined(FIRST)
 #include "contact/response/strike.glsl"
 
-// Two spheres that touch nothing else: the lower slot's lane has them both, and reads neither after it has struck it.
+// Two spheres that neither touch nor move anything else: the lower slot's lane has them both, and reads neither after it has struck it.
 bool isPair(int slot, int other)
 {
-    return listedOf(slot) == 1 && listedOf(other) == 1 && sphereAt(other).weight > 0.0;
+    return !SPREADS && listedOf(slot) == 1 && listedOf(other) == 1 && sphereAt(other).weight > 0.0;
 }
 
 void main()
@@ -76,15 +61,15 @@ void main()
     bool isPaired = listedOf(slot) > 0 && isPair(slot, other);
     if (isPaired && slot > other) return;
     loadSphere(slot);
-    uvec2 choice = choose(slot);
-    bool any = choice.x != NOBODY;
+    Choice choice = choose(slot);
+    bool any = choice.other != NOBODY;
     if (isPaired && any) {
-        strike(slot, other, sphereAt(other), 0u, 0u);
+        strike(slot, other, uvec2(0u));
         return;
     }
     if (isPaired) putImpacts(other, 0, NO_IMPACT);
     putImpacts(slot, 0, NO_IMPACT);
-    putChoices(slot, choice);
+    putChoices(slot, packedChoice(choice));
     putImpactRounds(slot, any ? 1u : 0u);
     if (any) listSlot(slot);
 }
@@ -93,10 +78,12 @@ uniform int roundNumber;  // from 1
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= impactGroupsAt(0, 3)) return;
+    uint listed = impactGroupsBuffer[4];
+    if (gl_GlobalInvocationID.x == 0u) putImpactGroups(0, 3, listed);  // strike.pass.glsl lists more while it reads this
+    if (gl_GlobalInvocationID.x >= listed) return;
     int slot = int(impactSlotsAt(ownNumber()));
     if (impactRoundsAt(slot) != uint(roundNumber)) return;
     loadSphere(slot);
-    putChoices(slot, choose(slot));
+    putChoices(slot, packedChoice(choose(slot)));
 }
 #endif

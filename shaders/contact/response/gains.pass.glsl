@@ -24,7 +24,8 @@ void main()
     bool any = change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0);
     putGains(sphere, 0, vec4(change.impulse, any ? 1.0 : 0.0));
     putGains(sphere, 1, vec4(change.shift, 0.0));
-    putLoads(sphere, any ? loadOf(sphere, change, stepTime) : vec4(0.0));
+    vec3 velocity = uintBitsToFloat(sphereMotionsAt(sphere).xyz) + change.impulse;  // before impacts
+    putLoads(sphere, any ? loadOf(sphere, change, velocity, stepTime) : vec4(0.0));
 }
 #else
 void main()

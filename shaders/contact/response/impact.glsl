@@ -2,8 +2,41 @@
 // what it leaves.
 #include "contact/response/known.glsl"
 #include "contact/response/hits.glsl"
+#include "contact/response/molecule.glsl"
 
 const uint NOBODY = 0xffffffffu;
+
+// The next impact of a slot.
+struct Choice {
+    uint other;   // the slot with which it has it, or NOBODY: it has none
+    uint entry;   // of its list
+    float since;  // s, how long ago
+    float speed;  // m/s, along the normal; negative: they approach
+};
+
+const Choice noChoice = Choice(NOBODY, 0u, 0.0, 0.0);
+
+uvec4 packedChoice(Choice choice)
+{
+    return uvec4(choice.other, choice.entry, floatBitsToUint(vec2(choice.since, choice.speed)));
+}
+
+Choice choiceFrom(uvec4 word)
+{
+    return Choice(word.x, word.y, uintBitsToFloat(word.z), uintBitsToFloat(word.w));
+}
+
+// Whether the impact that slot a has chosen comes before that of slot b. All that compare two impacts agree.
+bool isBefore(int slotOfA, Choice a, int slotOfB, Choice b)
+{
+    if (a.since != b.since) return a.since > b.since;
+    if (a.speed != b.speed) return a.speed < b.speed;
+    ivec2 ofA = ivec2(sphereOf(slotOfA), sphereOf(int(a.other)));
+    ivec2 ofB = ivec2(sphereOf(slotOfB), sphereOf(int(b.other)));
+    ivec2 first = ivec2(min(ofA.x, ofA.y), min(ofB.x, ofB.y));
+    ivec2 second = ivec2(max(ofA.x, ofA.y), max(ofB.x, ofB.y));
+    return first.x < first.y || (first.x == first.y && second.x < second.y);
+}
 
 // For how long both spheres have moved straight, s.
 float straightTime(int slot, int other, Sphere sphere)
@@ -32,13 +65,28 @@ PairImpact impactOf(int slot, int other, Sphere sphere)
                       restSpeed, slot < other ? 1.0 : -1.0);
 }
 
-// Returns the impulse on the own sphere, N s.
-vec3 impulseOf(PairImpact impact, Sphere sphere)
+// Returns how an impulse of the own sphere with another changes their relative velocity, m/s.
+vec3 gainBetween(Sphere sphere, BodySphere body, vec3 impulse)
+{
+    vec3 gained = impulse * (own.weight + sphere.weight);
+    return BODIES ? gained + (turnedBy(ownBody, impulse) + turnedBy(body, impulse)) : gained;
+}
+
+// Returns the impulse on the own sphere, N s: first that along the normal, then what friction takes of the slip that is left. Neither
+// adds energy, whatever else the two impulses move.
+vec3 impulseOf(PairImpact impact, Sphere sphere, BodySphere body)
 {
     vec2 material = materialOf(own, sphere);
-    vec3 impulse = pairImpulse(own.velocity - sphere.velocity, impact.normal, -material.x * impact.speed, vec3(0.0),
-                               vec2(own.weight + sphere.weight));
-    return withinFriction(impulse, impact.normal, material.y);
+    vec3 n = impact.normal;
+    vec3 u = own.velocity - sphere.velocity;
+    float along = dot(u, n);
+    float push = (-material.x * impact.speed - along) / (weightsOf(own, ownBody, n).x + weightsOf(sphere, body, n).x);
+    u += gainBetween(sphere, body, n * push);
+    vec3 slip = u - n * dot(u, n);
+    float speed = sqrt(dot(slip, slip));
+    vec3 across = slip / max(speed, 1e-30);
+    float stops = dot(across, gainBetween(sphere, body, across));  // 1/kg
+    return n * push - across * min(material.y * push, speed / max(stops, 1e-30));
 }
 
 // All of a slot that an impact changes.
@@ -55,17 +103,23 @@ Struck struckAs(int slot)
     return s;
 }
 
-// Returns the slot after an impulse, N s, so long ago, s, by entry e of its list: since then it moves as if it had always had the
-// velocity that it has now.
-Struck struckBy(int slot, int other, vec3 impulse, float since, uint e)
+// Returns a slot after an impulse on slot a, N s, and the opposite one on slot b, so long ago, s: since then it moves as if it had always had
+// the velocity that it has now. `e`: if it is a or b, the other in its list.
+Struck struckBy(int slot, int a, int b, vec3 impulse, float since, uint e)
 {
     Struck s = struckAs(slot);
-    vec3 gained = impulse * withoutFlag(s.motion.w);
+    vec3 gained = gainOf(slot, a, impulse) - gainOf(slot, b, impulse);
+    bool isHit = slot == a || slot == b;
+    if (!isHit && gained == vec3(0.0)) return s;
     s.place.xyz = floatBitsToUint(uintBitsToFloat(s.place.xyz) + gained * since);
     s.motion.xyz = floatBitsToUint(uintBitsToFloat(s.motion.xyz) + gained);
-    s.impacts[0] = floatBitsToUint(vec4(uintBitsToFloat(s.impacts[0].xyz) + impulse, since));
-    s.impacts[1].xyz = floatBitsToUint(uintBitsToFloat(s.impacts[1].xyz) + impulse * since);
-    s.impacts[1].w = uint(other);
+    s.impacts[0].w = floatBitsToUint(since);
+    s.impacts[1].w = NOBODY;
+    if (!isHit) return s;
+    vec3 own = slot == a ? impulse : -impulse;
+    s.impacts[0].xyz = floatBitsToUint(uintBitsToFloat(s.impacts[0].xyz) + own);
+    s.impacts[1].xyz = floatBitsToUint(uintBitsToFloat(s.impacts[1].xyz) + own * since);
+    s.impacts[1].w = uint(slot == a ? b : a);
     s.impacts[2][e >> 5u] |= 1u << (e & 31u);
     return s;
 }

@@ -9,7 +9,7 @@ struct Constraint {
     vec3 normal;     // unit, to this slot's sphere
     float target;    // m/s, the relative velocity along it that is wanted
     vec2 weights;    // 1/kg, by what a step of the iteration is divided, along the normal and across it
-    float lacks;     // m, by which the spheres are to be moved apart; an impact moves none (-1e30)
+    float lacks;     // m, by which the spheres are to be moved apart
     float friction;  // below 0: the contact takes no part
 };
 
@@ -46,9 +46,8 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
     vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
     float reach = own.radius + pair.sphere.radius;
-    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach, isLoaded(begun));
-    float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
-    return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
+    return Constraint(contact.normal, partingSpeed(contact.depth, reach, isLoaded(begun)), weights, lacking(contact.depth, reach),
+                      pair.meets ? pair.material.y : -1.0);
 }
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.

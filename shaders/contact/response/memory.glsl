@@ -1,7 +1,8 @@
 // The memory that the last step has left of the contacts of a sphere: with buffers by sphere, so that a sphere that rests costs nothing; in fragments
 // by the slot that it had.
 #include "contact/slots.glsl"
-#pragma reads oldSlots oldCounts oldLists memoryCounts partners slots
+#pragma reads oldSlots oldCounts oldLists partners slots
+#pragma reads warmStart when buffers
 
 int memoryOf(int sphere)
 {
@@ -10,7 +11,7 @@ int memoryOf(int sphere)
 
 uint memoryCountAt(int memory)
 {
-    return inTextures ? oldCountsAt(memory) : memoryCountsAt(memory);
+    return inTextures ? oldCountsAt(memory) : floatBitsToUint(warmStartAt(memory).w);
 }
 
 bool remembersAt(int memory)

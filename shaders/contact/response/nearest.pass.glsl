@@ -21,13 +21,17 @@ void main()
     Sphere other = sphereAt(nearest);
     vec3 u = own.velocity - other.velocity;
     float w = own.weight + other.weight;
-    PairContact contact = pairContact(localDifference(own.place, other.place, cell), u, own.radius + other.radius, stepTime,
-                                      restSpeed, slot < nearest ? 1.0 : -1.0);
+    vec3 d = localDifference(own.place, other.place, cell);
+    float reach = own.radius + other.radius;
+    float side = slot < nearest ? 1.0 : -1.0;
+    PairContact contact = pairContact(d, u, reach, side);
+    PairImpact impact = nextImpact(d, u, reach, stepTime, restSpeed, side);
     vec2 material = materialOf(own, other);
-    float target = contact.impact ? -material.x * contact.speed : max(contact.speed, 0.0);
-    vec3 impulse = w > 0.0 ? pairImpulse(u, contact.normal, target, vec3(0.0), vec2(w)) : vec3(0.0);
-    impulse = withinFriction(impulse, contact.normal, material.y);
-    vec3 apart = contact.normal * (w > 0.0 ? contact.depth / w : 0.0);
+    vec3 n = impact.happens ? impact.normal : contact.normal;
+    float target = impact.happens ? -material.x * impact.speed : max(contact.speed, 0.0);
+    vec3 impulse = w > 0.0 ? pairImpulse(u, n, target, vec3(0.0), vec2(w)) : vec3(0.0);
+    impulse = withinFriction(impulse, n, material.y);
+    vec3 apart = n * (w > 0.0 ? contact.depth / w : 0.0);
     putTotals(slot, 0, vec4(impulse, 0.0));
-    putTotals(slot, 1, vec4(contact.impact ? impulse * contact.since : apart, 0.0));
+    putTotals(slot, 1, vec4(impact.happens ? impulse * impact.since : apart, 0.0));
 }

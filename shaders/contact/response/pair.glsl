@@ -107,14 +107,13 @@ vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
     return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 
-// `bounceFrom`: m/s; slower is no impact.
-Pair pairOf(int slot, int other, float bounceFrom)
+Pair pairOf(int slot, int other)
 {
     Pair pair;
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
-    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
-                               SPREADS ? bounceFrom : 1e30, slot < other ? 1.0 : -1.0);
+    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius,
+                               slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
@@ -155,7 +154,7 @@ bool isDeep(PairContact contact, float reach)
 void leaveAsCome(inout Pair pair, vec3 anchor)
 {
     float reach = own.radius + pair.sphere.radius;
-    if (pair.contact.impact || !isDeep(pair.contact, reach)) return;
+    if (!isDeep(pair.contact, reach)) return;
     vec3 n = anchor / max(length(anchor), 1e-30);
     pair.contact.normal = n;
     pair.contact.depth = reach - dot(pair.apart, n);
@@ -165,7 +164,7 @@ void leaveAsCome(inout Pair pair, vec3 anchor)
 // The pair of a contact that prepare() has begun.
 Pair pairAs(int slot, int other, ContactImpulse begun)
 {
-    Pair pair = pairOf(slot, other, begun.kind == PERSISTENT ? 1e30 : restSpeed);
+    Pair pair = pairOf(slot, other);
     pair.meets = pair.meets && begun.kind != NO_PART;
     leaveAsCome(pair, begun.anchor);
     return pair;

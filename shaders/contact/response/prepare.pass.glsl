@@ -42,19 +42,15 @@ ContactImpulse prepare(int slot, int e, out Pair pair)
     int other = int(listsAt(slot, e));
     ContactImpulse old = oldContact(other);
     bool isOld = old.kind != NO_PART;
-    // what is remembered is no impact, however fast it closes
-    pair = pairOf(slot, other, isOld ? 1e30 : restSpeed);
+    pair = pairOf(slot, other);
     PairContact contact = pair.contact;
     float reach = own.radius + pair.sphere.radius;
-    bool hadImpact = SPREADS ? contact.impact : isStruck(slot) && hasHit(slot, e);
+    bool hadImpact = isStruck(slot) && hasHit(slot, e);
     bool again = old.kind == IMPACT || old.kind == REPEATED;
     ContactImpulse known = noImpulse(!hadImpact ? PERSISTENT : again ? REPEATED : IMPACT);
     // a little along the normal as well, which is then known where centres coincide
-    known.anchor = (contact.impact ? vec3(0.0) : pair.apart) + contact.normal * ((contact.impact ? 1.0 : 1e-6) * reach);
-    if (contact.impact) return known;
-    bool comes = SPREADS && !isOld && contact.depth <= 0.0 && contact.speed < -restSpeed;
-    if (!SPREADS) comes = waits(pair, old, isStruck(slot) || (pair.sphere.weight > 0.0 && isStruck(other)));
-    if (comes || !pair.meets) {
+    known.anchor = pair.apart + contact.normal * (1e-6 * reach);
+    if (!pair.meets || waits(pair, old, isStruck(slot) || (pair.sphere.weight > 0.0 && isStruck(other)))) {
         known.kind = NO_PART;
         pair.meets = false;
         return known;
@@ -134,6 +130,7 @@ void main()
     if (ownNumber() == 0) {  // nobody is listed for the next step
         putImpactGroups(0, 0, 0u);
         putImpactGroups(0, 3, 0u);
+        putImpactGroups(0, 4, 0u);
     }
     loadOwn(slot);
     int listed = listedOf(slot);

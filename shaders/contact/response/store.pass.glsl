@@ -4,18 +4,17 @@
 #include "contact/response/pair.glsl"
 #include "contact/response/hits.glsl"
 #pragma reads impulses anchors
-#pragma writes warmStart partners keptImpulses keptAnchors memoryCounts oldNormals
+#pragma writes warmStart partners keptImpulses keptAnchors oldNormals
 #pragma writes nextTotals when textures
 
-// Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
-// time since, what sticks back towards where it began to. `kept`: the contact's impulse as the next step begins with it.
+// Returns how far a contact moves the sphere beside what pushes it apart, kg m: what
+// sticks back towards where it began to. `kept`: the contact's impulse as the next step begins with it.
 vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
 {
     Pair pair = pairAs(slot, other, known);
     vec3 n = pair.contact.normal;
     kept = remembered(known, pair.sphere);
     if (!pair.meets) return vec3(0.0);
-    if (pair.contact.impact) return known.impulse * pair.contact.since;
     vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
     vec3 slip = pair.apart - known.anchor;
     slip -= n * dot(slip, n);
@@ -59,7 +58,7 @@ void main()
             putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
         }
     }
-    if (!SPREADS && isStruck(slot)) {
+    if (isStruck(slot)) {
         total.xyz += uintBitsToFloat(impactsAt(slot, 0).xyz);
         shift += uintBitsToFloat(impactsAt(slot, 1).xyz);
     }
@@ -67,6 +66,5 @@ void main()
     putTotals(slot, 1, vec4(shift, 0.0));
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-    putMemoryCounts(sphere, uint(listed) | (isHeld ? HELD : 0u));
-    putWarmStart(sphere, vec4(keeps, part));
+    putWarmStart(memoryRow(slot), vec4(keeps, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));
 }

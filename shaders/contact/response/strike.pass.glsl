@@ -1,13 +1,37 @@
-// Lets those impacts happen that both spheres have chosen (choose.pass.glsl beside this file).
+// Lets those impacts happen that are the next of both molecules (choose.pass.glsl beside this file), or where no sphere moves others, of
+// both spheres.
 const bool isFirst = false;
 #pragma updates places sphereMotions impacts impactRounds impactSlots impactGroups choices
 #pragma writes nextPlaces nextMotions nextImpacts
 #include "contact/response/impact.glsl"
 
-// Whether the choice of a slot is that of the other as well; what nothing moves has none.
-bool agrees(int slot, int other, Sphere sphere)
+Choice choiceOf(int slot)
 {
-    return sphere.weight == 0.0 || choicesAt(other).x == uint(slot);
+    return listedOf(slot) > 0 ? choiceFrom(choicesAt(slot)) : noChoice;
+}
+
+// Returns the slot that has the next impact of its molecule.
+int nextOf(int slot)
+{
+    if (!SPREADS) return slot;
+    Molecule molecule = moleculeOf(slot);
+    int best = slot;
+    Choice first = choiceOf(slot);
+    for (int k = 0; k < molecule.spheres; ++k) {
+        int sphere = slotOfSphere(molecule, k);
+        Choice choice = choiceOf(sphere);
+        if (choice.other == NOBODY || (first.other != NOBODY && !isBefore(sphere, choice, best, first))) continue;
+        best = sphere;
+        first = choice;
+    }
+    return best;
+}
+
+// Whether the other of a slot's choice has it as well; what nothing moves has none.
+bool agrees(int slot, int other)
+{
+    if (sphereAt(other).weight == 0.0) return true;
+    return choiceOf(other).other == uint(slot) && nextOf(other) == other;
 }
 
 #ifdef TEXTURES
@@ -15,15 +39,16 @@ void main()
 {
     int slot = ownNumber();
     if (slot >= count) discard;
-    loadSphere(slot);
     Struck next = struckAs(slot);
-    uvec2 choice = choicesAt(slot);
-    int other = int(choice.x);
-    bool any = choice.x != NOBODY;
-    Sphere sphere = sphereAt(any ? other : slot);
-    if (any && agrees(slot, other, sphere)) {
-        PairImpact impact = impactOf(slot, other, sphere);
-        next = struckBy(slot, other, impulseOf(impact, sphere), impact.since, choice.y);
+    int struck = nextOf(slot);
+    Choice choice = choiceOf(struck);
+    int other = int(choice.other);
+    if (choice.other != NOBODY && agrees(struck, other)) {
+        loadSphere(struck);
+        Sphere sphere = sphereAt(other);
+        PairImpact impact = impactOf(struck, other, sphere);
+        vec3 impulse = impulseOf(impact, sphere, bodyOf(other, sphere));
+        next = struckBy(slot, struck, other, impulse, impact.since, choiceOf(slot).entry);
     }
     putNextPlaces(slot, next.place);
     putNextMotions(slot, next.motion);
@@ -37,30 +62,41 @@ uniform int roundNumber;  // from 1
 // Lets a slot, and all that it may touch, choose anew, where that is more than the other that it has met.
 void chooseAnew(int slot)
 {
-    putChoices(slot, uvec2(NOBODY, 0u));
-    if (listedOf(slot) < 2) return;
+    if (!SPREADS) putChoices(slot, packedChoice(noChoice));
+    if (listedOf(slot) < (SPREADS ? 1 : 2)) return;
     for (int e = -1; e < listedOf(slot); ++e) {
         int chooser = e < 0 ? slot : int(listsAt(slot, e));
         if (!rests(chooser) && atomicExchange(impactRoundsBuffer[chooser], uint(roundNumber + 1)) == 0u) listSlot(chooser);
     }
 }
 
+// The same for all that an impact of the slot has moved.
+void allChooseAnew(int slot)
+{
+    if (!SPREADS) {
+        chooseAnew(slot);
+        return;
+    }
+    Molecule molecule = moleculeOf(slot);
+    for (int k = 0; k < molecule.spheres; ++k) chooseAnew(slotOfSphere(molecule, k));
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x >= impactGroupsBuffer[3]) return;
     int slot = int(impactSlotsAt(ownNumber()));
-    uvec2 choice = choicesAt(slot);
-    if (choice.x == NOBODY) return;
-    int other = int(choice.x);
-    loadSphere(slot);
-    Sphere sphere = sphereAt(other);
-    if (!agrees(slot, other, sphere)) {
+    Choice choice = choiceOf(slot);
+    if (choice.other == NOBODY) return;
+    int other = int(choice.other);
+    if (nextOf(slot) != slot || !agrees(slot, other)) {
         putImpactRounds(slot, uint(roundNumber + 1));
         return;
     }
-    if (sphere.weight > 0.0 && slot > other) return;
-    strike(slot, other, sphere, choice.y, choicesAt(other).y);
-    chooseAnew(slot);
-    if (sphere.weight > 0.0) chooseAnew(other);
+    bool isOther = sphereAt(other).weight > 0.0;
+    if (isOther && slot > other) return;
+    loadSphere(slot);
+    strike(slot, other, uvec2(choice.entry, isOther ? choiceOf(other).entry : 0u));
+    allChooseAnew(slot);
+    if (isOther) allChooseAnew(other);
 }
 #endif

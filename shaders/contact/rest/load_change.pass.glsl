@@ -2,11 +2,11 @@
 // its memory takes that over. It wakes where its contacts push more than when it came to rest, or much less, or where one has gone
 // and the others push otherwise. That they push a little less is no reason: what is awake between two that rest lets go of how these
 // squeeze it.
-#pragma updates marks memoryCounts partners keptImpulses keptAnchors restLoads
+#pragma updates marks warmStart partners keptImpulses keptAnchors restLoads
 #include "contact/response/pair.glsl"
 #include "contact/rest/mark_groups.glsl"
 #include "contact/response/memory.glsl"
-#pragma reads markedSlots warmStart colliderImpulses
+#pragma reads markedSlots colliderImpulses
 
 uniform float wakeSpeed;  // m/s
 
@@ -74,7 +74,7 @@ bool renew(int slot, int sphere)
         putKeptAnchors(sphere, kept, theirs.kind == PERSISTENT ? vec4(theirs.anchor, theirs.start) : secondPart(theirs));
         ++kept;
     }
-    putMemoryCounts(sphere, uint(kept) | (memoryCountsAt(sphere) & HELD));
+    putWarmStart(sphere, vec4(warmStartAt(sphere).xyz, asMemory(uint(kept) | (memoryCountAt(sphere) & HELD))));
     return hasLost;
 }
 

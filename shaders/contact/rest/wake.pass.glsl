@@ -24,7 +24,7 @@ void main()
     int slot = min(int(gl_GlobalInvocationID.x), count - 1);
     if ((marksAt(slot) & (STRUCK << contactsAway)) == 0u) return;
     uint label = placesAt(slot).w;
-    ivec2 group = ivec2(groupsOfAt(int(label >> 26u)).xy);
+    ivec2 group = ivec2(groupsOfAt(2 * int(label >> 26u)).xy);
     int first = group.x + int(label & 0x3ffffffu) * group.y;
     for (int sphere = first; sphere < first + group.y; ++sphere) {
         wakePartners(sphere);

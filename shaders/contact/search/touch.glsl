@@ -44,7 +44,7 @@ bool mayMeet(uint label, int slot)
 // Whether two spheres of one molecule may touch.
 bool mayMeetSelf(int slot)
 {
-    ivec4 group = ivec4(groupsOfAt(int(ownLabel >> 26u)));
+    ivec4 group = ivec4(groupsOfAt(2 * int(ownLabel >> 26u)));
     if (group.w == 0) return false;
     int own = (sphereOf(searching) - group.x) % group.y;
     int other = (sphereOf(slot) - group.x) % group.y;
@@ -63,7 +63,7 @@ bool isCandidate(int slot)
 // Whether two spheres d apart have met within the last contact step, or passed through each other.
 bool haveMet(vec3 d, float reach, int slot)
 {
-    return pairContact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed, 1.0).impact;
+    return nextImpact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed, 1.0).happens;
 }
 
 // Whether a collider holds a sphere that its step has not held: of a rigid body one that is near, of a triangle one that it overlaps.

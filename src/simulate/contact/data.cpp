@@ -94,13 +94,13 @@ void ContactData::giveTables() {
     arrays.give("shapes", shapes.data(), shapes.size());
     arrays.give("materials", materials.data(), materials.size());
     if (textures && remembers) arrays.alias("oldImpulses", "impulses");
-    if (!self && !rests) return;
-    // Which spheres of one molecule do not meet (shaders/contact/search/touch.glsl): of each group x its
-    // first sphere, y spheres of a molecule, z first word, w words of a sphere.
+    if (!self && !rests && !spreads) return;
     std::vector<uint32_t> words;
     std::vector<glm::uvec4> groups;
     for (const ContactGroup& group : contact->groups) {
         groups.emplace_back(group.firstSphere, group.spheresOf, words.size(), group.wordsOf);
+        groups.emplace_back(planOf(group).vertexCount, firstShapes_[size_t(&group - contact->groups.data())],
+                            0, 0);
         words.insert(words.end(), group.apart.begin(), group.apart.end());
     }
     if (self) arrays.give("apart", words.data(), words.size());

@@ -1,6 +1,7 @@
 #include "simulate/contact/readback.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 #include "simulate/texture_layers.h"
@@ -12,7 +13,7 @@ namespace {
 using gpu::Traffic;
 
 // In a slot's count: its contacts, and that a collider may hold it (shaders/contact/flags.glsl).
-constexpr uint32_t contactsMask = 0x1fffffffu, heldFlag = 0x20000000u;
+constexpr uint32_t contactsMask = 0x1fffffffu, heldFlag = 0x20000000u, respondsFlag = 0x40000000u;
 
 // All values of an array: with buffers as they lie; in fragments by number, layer after layer.
 template <typename T>
@@ -53,6 +54,15 @@ std::vector<uint32_t> readLists(const ContactData& data, const std::string& name
     return out;
 }
 
+// How many contacts each sphere, or slot, remembers, with its flags.
+std::vector<uint32_t> readCounts(const ContactData& data) {
+    if (data.textures) return read<uint32_t>(data, "counts");
+    std::vector<uint32_t> out;
+    for (const glm::vec4& known : read<glm::vec4>(data, "warmStart"))
+        out.push_back(std::bit_cast<uint32_t>(known.w) & ~respondsFlag);
+    return out;
+}
+
 // The memory of fragments lies at the slots of the last step; with buffers a slot is a sphere.
 ContactSlots readSlots(const ContactData& data) {
     const auto spheres = size_t(data.contact->spheres);
@@ -62,7 +72,7 @@ ContactSlots readSlots(const ContactData& data) {
     std::iota(out.slots.begin(), out.slots.end(), 0u);
     if (data.textures) out.slots = read<uint32_t>(data, "slots");
     out.slots.resize(spheres);
-    for (const uint32_t count : read<uint32_t>(data, data.textures ? "counts" : "memoryCounts"))
+    for (const uint32_t count : readCounts(data))
         out.counts.push_back(std::min(count & contactsMask, uint32_t(data.listLength)));
     out.lists = readLists(data, data.textures ? "lists" : "partners");
     out.pushes = read<glm::vec4>(data, data.textures ? "impulses" : "keptImpulses");
@@ -152,7 +162,7 @@ std::vector<std::pair<int, int>> foundPairs(const ContactData& data) {
 
 ContactMemory readMemory(const ContactData& data) {
     if (!data.remembers) return {};
-    const auto counts = read<uint32_t>(data, data.textures ? "counts" : "memoryCounts");
+    const std::vector<uint32_t> counts = readCounts(data);
     if (!data.rests && std::all_of(counts.begin(), counts.end(), [](uint32_t count) { return count == 0; }))
         return {};
     ContactSlots in = readSlots(data);
@@ -170,19 +180,21 @@ ContactMemory readMemory(const ContactData& data) {
 
 void writeMemory(ContactData& data, const ContactMemory& memory) {
     if (!data.remembers) return;
-    const char* const counts = data.textures ? "counts" : "memoryCounts";
     if (memory.counts.size() != size_t(data.contact->spheres)) {
-        write<uint32_t>(data, counts, {});
+        write<glm::vec4>(data, "warmStart", {});
+        if (data.textures) write<uint32_t>(data, "counts", {});
         if (data.rests) write<glm::vec4>(data, "restPoses", {});
         return write<glm::vec4>(data, "loads", {});
     }
     ContactSlots in = bySlot(memory, strideOf(data), size_t(data.listLength));
     for (size_t sphere = 0; sphere < in.counts.size(); ++sphere)
         if (isHeld(in, sphere)) in.counts[sphere] |= heldFlag;
-    for (glm::vec4& known : in.known)
-        known.w = 1;
-    write(data, counts, in.counts);
-    if (data.textures) write(data, "slots", in.slots);
+    for (size_t i = 0; i < in.known.size(); ++i)
+        in.known[i].w = data.textures ? 1.0f : std::bit_cast<float>(in.counts[i] | respondsFlag);
+    if (data.textures) {
+        write(data, "counts", in.counts);
+        write(data, "slots", in.slots);
+    }
     writeLists(data, data.textures ? "lists" : "partners", in.lists);
     write(data, data.textures ? "impulses" : "keptImpulses", in.pushes);
     write(data, data.textures ? "anchors" : "keptAnchors", in.anchors);

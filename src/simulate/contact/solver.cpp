@@ -11,11 +11,9 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
         prepare_ = data.stage("contact/response/prepare");
         solve_ = data.stage("contact/response/solve");
         store_ = data.stage("contact/response/store");
-        if (!data.spreads) {
-            chooseFirst_ = data.stage("contact/response/choose", {"FIRST"}, "choose_first");
-            choose_ = data.stage("contact/response/choose");
-            strike_ = data.stage("contact/response/strike");
-        }
+        chooseFirst_ = data.stage("contact/response/choose", {"FIRST"}, "choose_first");
+        choose_ = data.stage("contact/response/choose");
+        strike_ = data.stage("contact/response/strike");
         if (data.textures) {
             prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"}, "prepare_entries");
             constrain_ = data.stage("contact/response/solve", {"FIRST", "ENTRIES"}, "constrain");
@@ -206,7 +204,7 @@ void ContactSolver::applyGains(const ContactStep& times) {
 
 void ContactSolver::run(const ContactStep& times) {
     if (data_->remembers) {
-        if (!data_->spreads) strike(times);
+        strike(times);
         prepare(times);
         for (int i = 0; i < data_->contact->settings.iterations; ++i)
             solve(times, i);

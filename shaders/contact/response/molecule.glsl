@@ -1,0 +1,59 @@
+// The molecule of a slot, for what knows no group, and how an impulse on one of its spheres moves the others (as contact/response/changes.glsl
+// has it of one group).
+#include "contact/response/body.glsl"
+#include "contact/slots.glsl"
+#pragma reads groupsOf shapes slots
+
+struct Molecule {
+    int first;     // of its spheres
+    int spheres;   // how many
+    int vertices;  // so many of them are vertices; behind these come triangles
+    int shape;     // of the first sphere (contact/grid/shape.glsl)
+};
+
+Molecule moleculeOf(int slot)
+{
+    int group = 2 * int(placesAt(slot).w >> 26u);
+    ivec2 spheres = ivec2(groupsOfAt(group).xy);
+    ivec2 shape = ivec2(groupsOfAt(group + 1).xy);
+    int before = (sphereOf(slot) - spheres.x) / spheres.y;
+    return Molecule(spheres.x + before * spheres.y, spheres.y, shape.x, shape.y);
+}
+
+int slotOfSphere(Molecule molecule, int k)
+{
+    return int(slotsAt(molecule.first + k));
+}
+
+ivec3 cornersOf(Molecule molecule, int k)
+{
+    return k < molecule.vertices ? ivec3(k) : ivec3(shapesAt(molecule.shape + k).xyz);
+}
+
+// Returns how 1 N s on sphere s changes the velocity of sphere k, 1/kg, where each vertex gives way alone: a triangle passes a third of
+// it to each corner, and moves as their mean.
+float shareOf(Molecule molecule, int k, int s)
+{
+    ivec3 moved = cornersOf(molecule, k);
+    ivec3 pushed = cornersOf(molecule, s);
+    float sum = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        int times = int(moved[c] == pushed.x) + int(moved[c] == pushed.y) + int(moved[c] == pushed.z);
+        if (times > 0) sum += float(times) * withoutFlag(motionAt(slotOfSphere(molecule, moved[c])).w);
+    }
+    return sum / 9.0;
+}
+
+// Returns how an impulse on the sphere of one slot, N s, changes the velocity of that of another, m/s.
+vec3 gainOf(int slot, int pushed, vec3 impulse)
+{
+    if (!SPREADS) return slot == pushed ? impulse * withoutFlag(motionAt(slot).w) : vec3(0.0);
+    Molecule molecule = moleculeOf(pushed);
+    int k = sphereOf(slot) - molecule.first;
+    if (k < 0 || k >= molecule.spheres || rests(pushed)) return vec3(0.0);
+    BodySphere body = bodySphereAt(sphereOf(pushed));
+    if (body.perMass == 0.0) return impulse * shareOf(molecule, k, sphereOf(pushed) - molecule.first);
+    BodyMotion motion = BodyMotion(vec3(0.0), vec3(0.0));
+    add(motion, body, impulse);
+    return motionAt(bodySphereAt(sphereOf(slot)), motion);
+}
