@@ -24,12 +24,6 @@ vec3 motionAt(BodySphere body, BodyMotion motion)
     return motion.shift + cross(motion.turn, body.arm);
 }
 
-// Returns how an impulse at a sphere changes its velocity by turning its body, m/s.
-vec3 turnedBy(BodySphere body, vec3 impulse)
-{
-    return cross(body.perInertia * cross(body.arm, impulse), body.arm);
-}
-
 // Returns the way of a motion that is not small, m, turned so that no body is stretched (Cayley's rotation).
 vec3 wayAt(BodySphere body, BodyMotion motion)
 {

@@ -14,6 +14,12 @@ const bool isFirst = false;
 #include "contact/response/impact.glsl"
 #pragma reads impactRounds impactSlots
 
+// Nothing is known of others' choices while they are made.
+Choice choiceOf(int slot)
+{
+    return noChoice;
+}
+
 Choice choose(int slot)
 {
     Choice best = noChoice;
@@ -64,7 +70,7 @@ void main()
     Choice choice = choose(slot);
     bool any = choice.other != NOBODY;
     if (isPaired && any) {
-        strike(slot, other, uvec2(0u));
+        strike(slot, choice);
         return;
     }
     if (isPaired) putImpacts(other, 0, NO_IMPACT);

@@ -1,4 +1,4 @@
-// With buffers, an impact of two spheres, and the list of slots that have others to choose from.
+// With buffers, an impact, and the list of slots that have others to choose from.
 #include "contact/response/impact.glsl"
 
 void put(int slot, Struck next)
@@ -8,31 +8,28 @@ void put(int slot, Struck next)
     putAllImpacts(slot, next.impacts);
 }
 
-// Moves all that take part of the molecule of slot a, or that slot alone where none moves others. `entries`: of b in the list of a, and of a in
-// that of b.
-void strikeAll(int a, int b, vec3 impulse, float since, uvec2 entries)
+// Moves all that take part of the molecule of a slot, or that slot alone where none moves others.
+void strikeAll(int slot, Impact impact)
 {
     if (!SPREADS) {
-        put(a, struckBy(a, a, b, impulse, since, entries.x));
+        put(slot, struckBy(slot, impact));
         return;
     }
-    Molecule molecule = moleculeOf(a);
+    Molecule molecule = moleculeOf(slot);
     for (int k = 0; k < molecule.spheres; ++k) {
-        int slot = slotOfSphere(molecule, k);
-        if (countsAt(slot) != 0u) put(slot, struckBy(slot, a, b, impulse, since, slot == a ? entries.x : entries.y));
+        int each = slotOfSphere(molecule, k);
+        if (countsAt(each) != 0u) put(each, struckBy(each, impact));
     }
 }
 
-// Strikes both spheres of an impact, the own one and another: a lane does, because neither may be seen half struck. `entries`: of the other
-// in the own list, and of the own one in the other's.
-void strike(int slot, int other, uvec2 entries)
+// Strikes both sides of the impact that a slot has chosen: a lane does, because neither may be seen half struck.
+void strike(int slot, Choice choice)
 {
-    Sphere sphere = sphereAt(other);
-    PairImpact impact = impactOf(slot, other, sphere);
-    vec3 impulse = impulseOf(impact, sphere, bodyOf(other, sphere));
+    int other = int(choice.other);
+    Impact impact = impactAt(slot, choice);
     bool isOneMolecule = SPREADS && placesAt(slot).w == placesAt(other).w;
-    if (sphere.weight > 0.0 && !isOneMolecule) strikeAll(other, slot, -impulse, impact.since, entries.yx);
-    strikeAll(slot, other, impulse, impact.since, entries);
+    if (sphereAt(other).weight > 0.0 && !isOneMolecule) strikeAll(other, impact);
+    strikeAll(slot, impact);
 }
 
 // Lists a slot for the rounds, from the next one on.

@@ -27,11 +27,12 @@ int nextOf(int slot)
     return best;
 }
 
-// Whether the other of a slot's choice has it as well; what nothing moves has none.
-bool agrees(int slot, int other)
+// Whether a slot's choice happens: it is the next of both molecules.
+bool happens(int slot, Choice choice)
 {
-    if (sphereAt(other).weight == 0.0) return true;
-    return choiceOf(other).other == uint(slot) && nextOf(other) == other;
+    if (choice.other == NOBODY || nextOf(slot) != slot || !isMutual(slot, choice)) return false;
+    int other = int(choice.other);
+    return sphereAt(other).weight == 0.0 || nextOf(other) == other;
 }
 
 #ifdef TEXTURES
@@ -41,14 +42,10 @@ void main()
     if (slot >= count) discard;
     Struck next = struckAs(slot);
     int struck = nextOf(slot);
-    Choice choice = choiceOf(struck);
-    int other = int(choice.other);
-    if (choice.other != NOBODY && agrees(struck, other)) {
-        loadSphere(struck);
-        Sphere sphere = sphereAt(other);
-        PairImpact impact = impactOf(struck, other, sphere);
-        vec3 impulse = impulseOf(impact, sphere, bodyOf(other, sphere));
-        next = struckBy(slot, struck, other, impulse, impact.since, choiceOf(slot).entry);
+    if (happens(struck, choiceOf(struck))) {
+        int other = int(choiceOf(struck).other);
+        if (sphereAt(other).weight > 0.0) struck = min(struck, other);  // both sides begin with the same
+        next = struckBy(slot, impactAt(struck, choiceOf(struck)));
     }
     putNextPlaces(slot, next.place);
     putNextMotions(slot, next.motion);
@@ -88,14 +85,13 @@ void main()
     Choice choice = choiceOf(slot);
     if (choice.other == NOBODY) return;
     int other = int(choice.other);
-    if (nextOf(slot) != slot || !agrees(slot, other)) {
+    if (!happens(slot, choice)) {
         putImpactRounds(slot, uint(roundNumber + 1));
         return;
     }
     bool isOther = sphereAt(other).weight > 0.0;
     if (isOther && slot > other) return;
-    loadSphere(slot);
-    strike(slot, other, uvec2(choice.entry, isOther ? choiceOf(other).entry : 0u));
+    strike(slot, choice);
     allChooseAnew(slot);
     if (isOther) allChooseAnew(other);
 }
