@@ -9,14 +9,23 @@ struct CellPlace {
     vec3 local;  // m, in [0, localCells cells)
 };
 
-// position: relative to the anchor, m. `cell` has 5 significant bits, so that its multiples up to 2^19 are floats and
-// the difference to an anchor close by is exact.
+// position: relative to the anchor, m. `cell` has 5 significant bits: it is so many steps of the anchors' lattice, times a
+// power of two, so the anchor's own cell and its place there follow in whole numbers, exactly. Quotients that are off by a
+// rounding do no harm: what they leave over is in the rest. Numbers of cells wrap at 2^32.
 CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
 {
-    vec3 base = floor(clamp(anchor / cell, -1e9f, 1e9f));
-    vec3 rest = (anchor - base * cell) + position;
+    int bits = floatBitsToInt(cell);
+    int doublings = min((bits >> 23) - 127, 26);
+    int size = (16 + ((bits >> 19) & 15)) << max(doublings, 0);  // cell = size / finer lattice steps
+    int finer = 1 << max(-doublings, 0);
+    ivec3 point = ivec3(clamp(anchor * 16.0f, -1e9f, 1e9f));
+    ivec3 whole = ivec3(floor(vec3(point) / float(size)));
+    ivec3 part = (point - whole * size) * finer;
+    ivec3 fine = ivec3(floor(vec3(part) / float(size)));
+    ivec3 base = ivec3(uvec3(whole) * uint(finer)) + fine;
+    vec3 rest = vec3(part - fine * size) * (0.0625f / float(finer)) + position;
     vec3 steps = floor(clamp(rest / cell, -1e9f, 1e9f));
-    ivec3 index = ivec3(base) + ivec3(steps);
+    ivec3 index = base + ivec3(steps);
     vec3 inCell = clamp(rest - steps * cell, 0.0f, cell);
     return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
 }

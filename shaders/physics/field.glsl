@@ -12,14 +12,15 @@ vec3 oscillatingVelocity(float time, vec3 velocity, float angularFrequency, floa
 
 // along, across1, across2: an orthonormal frame; size = (length, width); frozen turbulence that travels.
 // n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of 0.257. The fronts had
-// travelled by `gone` + `cells` of their length when the frame began.
+// travelled by `gone` + `cells` of their length when the frame began. x is relative to the corner of cell `first`.
 vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, float strength, float frontSpeed,
-                  vec2 size, float gone, uint cells, uint seed)
+                  vec2 size, float gone, uint cells, uint seed, uvec3 first)
 {
+    uvec3 passed = first - uvec3(cells, 0u, 0u);
     vec3 third = cross(along, across);
     vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x - gone, dot(x, across) / size.y, dot(x, third) / size.y);
-    float fine = gradientNoise(2.0f * p + 17.31f, 0u - 2u * cells, seed + 1u);
-    float n = 1.2f * (gradientNoise(p, 0u - cells, seed) + 0.5f * fine);
+    float fine = gradientNoise(2.0f * p + 17.31f, 2u * passed, seed + 1u);
+    float n = 1.2f * (gradientNoise(p, passed, seed) + 0.5f * fine);
     return along * (speed * (1.0f + strength * n));
 }
 
@@ -49,16 +50,17 @@ vec3 taylorGreenVelocity(vec3 x, float speed, float wavenumber)
 }
 
 // Octave i has length and period 2^-i and speed 2^(-i/3) (Kolmogorov's spectrum) of the first. `gone` + `cells` periods
-// had passed when the frame began.
+// had passed when the frame began. x is relative to the corner of cell `first`.
 vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period, int octaves, float gone, uint cells,
-                       uint seed)
+                       uint seed, uvec3 first)
 {
     vec3 sum = vec3(0.0f);
     float scale = 1.0f;
     float amplitude = speed;
     for (int i = 0; i < octaves; ++i) {
         sum += amplitude *
-               curlNoise(x * (scale / size), scale * (gone + time / period), cells << uint(i), seed + uint(i));
+               curlNoise(x * (scale / size), scale * (gone + time / period), cells << uint(i), seed + uint(i),
+                         first * (1u << uint(i)));
         scale *= 2.0f;
         amplitude *= 0.79370053f;
     }

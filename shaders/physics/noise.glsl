@@ -39,9 +39,9 @@ vec4 gradientOf(uint word)
            1.0f;
 }
 
-// Gradient noise in three dimensions: mean 0, mostly within [-1, 1]. p.x counts from lattice cell `first`, so that it
-// stays small however far the noise has travelled.
-float gradientNoise(vec3 p, uint first, uint seed)
+// Gradient noise in three dimensions: mean 0, mostly within [-1, 1]. p counts from lattice cell `first`, so that it
+// stays small however far from the origin it is asked for and however far the noise has travelled.
+float gradientNoise(vec3 p, uvec3 first, uint seed)
 {
     vec3 corner = floor(p);
     vec3 f = p - corner;
@@ -52,7 +52,7 @@ float gradientNoise(vec3 p, uint first, uint seed)
     float sum = 0.0f;
     for (int i = 0; i < 8; ++i) {
         ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x) + first, uint(cell.y + side.y), uint(cell.z + side.z), seed));
+        uvec4 hash = pcg4d(uvec4(uvec3(cell + side) + first, seed));
         vec4 gradient = gradientOf(hash.x);
         vec3 d = f - vec3(side);
         float weight = (side.x == 1 ? wx : 1.0f - wx) * (side.y == 1 ? wy : 1.0f - wy) *
@@ -62,7 +62,7 @@ float gradientNoise(vec3 p, uint first, uint seed)
     return sum;
 }
 
-// The slope of gradientNoise(p, 0u, seed) along x, y and z, which is exact, and in w its value.
+// The slope of gradientNoise(p, uvec3(0u), seed) along x, y and z, which is exact, and in w its value.
 vec4 gradientNoiseSlope(vec3 p, uint seed)
 {
     vec3 corner = floor(p);
@@ -89,9 +89,9 @@ vec4 gradientNoiseSlope(vec3 p, uint seed)
 }
 
 // Curl of a vector potential psi(p, t) of three 4D gradient noises; component k of psi takes its gradients
-// from word k of pcg4d(cell.x, cell.y, cell.z, cell.w + 0x9e3779b9 seed). Derivatives are exact. t counts from lattice
-// cell `first`.
-vec3 curlNoise(vec3 p, float t, uint first, uint seed)
+// from word k of pcg4d(cell.x, cell.y, cell.z, cell.w + 0x9e3779b9 seed). Derivatives are exact. p and t
+// count from the lattice cells `firstPlace` and `first`.
+vec3 curlNoise(vec3 p, float t, uint first, uint seed, uvec3 firstPlace)
 {
     vec3 corner = floor(p);
     vec3 f = p - corner;
@@ -109,8 +109,7 @@ vec3 curlNoise(vec3 p, float t, uint first, uint seed)
     for (int i = 0; i < 16; ++i) {
         ivec3 side = ivec3(i & 1, (i >> 1) & 1, (i >> 2) & 1);
         int later = i >> 3;
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z),
-                                 cellTime + uint(later)));
+        uvec4 hash = pcg4d(uvec4(uvec3(cell + side) + firstPlace, cellTime + uint(later)));
         vec4 gx = gradientOf(hash.x);
         vec4 gy = gradientOf(hash.y);
         vec4 gz = gradientOf(hash.z);

@@ -17,7 +17,7 @@ float thickness(vec2 point, int octaves)
     // Large clouds are drawn out by shear; the small ones at their rims are not.
     vec2 place = point * vec2(0.75, 1.1);
     for (int i = 0; i < octaves; ++i) {
-        sum += weight * gradientNoise(vec3(place, 0.37), 0u, 31u + uint(i));
+        sum += weight * gradientNoise(vec3(place, 0.37), uvec3(0u), 31u + uint(i));
         place = mat2(1.6, 1.2, -1.2, 1.6) * place;
         weight *= 0.52;
     }

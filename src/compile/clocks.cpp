@@ -37,7 +37,7 @@ void setClocks(std::vector<glm::vec4>& parameters, const std::vector<ClockSlot>&
             out.x = float(std::remainder(clock.start + clock.rate * time, turn));
             break;
         case FieldClock::Kind::cells:
-            out = cellsAt(clock.rate * time);
+            out = cellsAt(clock.start + clock.rate * time);
             break;
         case FieldClock::Kind::frames:
             const glm::vec2 frame = frameAt(clock, time);

@@ -198,7 +198,7 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
                            out.largestRadius, " m", scene.contact.fastest ? " and their way in a step" : "",
                            ": without \"cell\" they are ", roundedUp(needed), " m wide"));
-    out.cell = roundedUp(scene.contact.cell.value_or(needed));
+    out.cell = roundedUp(std::max(scene.contact.cell.value_or(needed), ContactPlan::finestCell));
     out.listLength = listLength(out.largestRadius, smallest);
     while ((int64_t(1) << out.tableBits) < 2 * spheres)
         ++out.tableBits;

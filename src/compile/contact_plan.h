@@ -58,8 +58,9 @@ struct ContactPlan {
     // m: spheres whose centres are further apart neither touch nor have passed through each other in the last
     // contact step.
     double reach = 0;
-    // m, of the grid; at least twice `reach`, of 5 significant bits, so that its multiples up to 2^19 are
-    // floats.
+    // m, of the grid; at least twice `reach` and finestCell, of 5 significant bits
+    // (shaders/physics/cells.glsl).
+    static constexpr double finestCell = 1e-6;
     double cell = 0;
     int tableBits = 0;    // cells are hashed into a table of 2^tableBits
     int listLength = 24;  // spheres that one may touch, where there is room for them

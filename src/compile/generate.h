@@ -28,7 +28,9 @@ struct GeneratedFields : Generated {
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor; time: since the
 // frame's start.
-GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+// `near`: a point amid the molecules, m.
+GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples,
+                               const glm::dvec3& near = glm::dvec3(0));
 // Describes each grid among the fields, and each tile of noise, in a line for people, with the memory that it
 // takes.
 std::vector<std::string> describeGrids(const std::vector<Field>& fields,
@@ -55,7 +57,9 @@ bool respondTogether(const std::vector<Collider>& colliders);
 // position) and Contact answerTo(vec4 surface, vec3 position, vec3 velocity, Drift drift). For all else,
 // those of shaders/step/joint_contact.glsl; what uniforms have no room for goes into
 // the samples (compile/collider_table.h).
-GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
+// `near` as above.
+GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples,
+                                     const glm::dvec3& near = glm::dvec3(0));
 
 // The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:
 // loadFieldParameters().

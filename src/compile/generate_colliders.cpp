@@ -27,7 +27,8 @@ struct Text {
 
 class ColliderWriter {
   public:
-    explicit ColliderWriter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
+    ColliderWriter(std::vector<glm::vec4>& samples, const glm::dvec3& near)
+        : samples_(&samples), near_(near) {}
 
     GeneratedColliders result;
 
@@ -42,7 +43,7 @@ class ColliderWriter {
         out.velocity = "vec3(0.0)";
         result.materials[index] = result.parameters.size();
         out.material = slot({collider.restitution, collider.friction, collider.thickness});
-        GlslCall call = callOf(*collider.shape);
+        GlslCall call = callNear(collider);
         CallFrame frame{.position = "c.position"};
         if (collider.path) place(collider, index, call.origin(), frame, out);
         writeSurface(call, std::move(frame), out);
@@ -52,6 +53,17 @@ class ColliderWriter {
     }
 
   private:
+    // Of a plane that stands still far from its point, the point next to `near_` stands for it: the normal is
+    // a float, which leads astray over a long way.
+    GlslCall callNear(const Collider& collider) const {
+        constexpr double far = 1024;  // m
+        const PlaneCollider* plane = kindOf<PlaneCollider>(*collider.shape);
+        if (!plane || collider.path || glm::distance(plane->point, near_) <= far)
+            return callOf(*collider.shape);
+        const glm::dvec3 normal = glm::normalize(plane->normal);
+        return PlaneCollider{near_ - normal * glm::dot(near_ - plane->point, normal), plane->normal}.call();
+    }
+
     // Into the frame that moves. `own`: a point of the shape's own frame that is on it or near it.
     void place(const Collider& collider, size_t index, const glm::dvec3& own, CallFrame& frame, Text& out) {
         const bool turns = collider.path->turns();
@@ -95,6 +107,7 @@ class ColliderWriter {
     }
 
     std::vector<glm::vec4>* samples_;
+    glm::dvec3 near_;
 };
 
 std::string truth(const char* name, bool value) {
@@ -124,8 +137,8 @@ std::string sourceOfOne(const Text& text) {
 
 class Joint {
   public:
-    Joint(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples)
-        : colliders_(&colliders), samples_(&samples), writer_(samples), table_(colliders) {
+    Joint(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples, const glm::dvec3& near)
+        : colliders_(&colliders), samples_(&samples), writer_(samples, near), table_(colliders) {
         writer_.result.materials.resize(colliders.size());
     }
 
@@ -267,10 +280,10 @@ bool respondTogether(const std::vector<Collider>& colliders) {
     return colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0])));
 }
 
-GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
-                                     std::vector<glm::vec4>& samples) {
-    if (respondTogether(colliders)) return Joint(colliders, samples).generate();
-    ColliderWriter writer(samples);
+GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples,
+                                     const glm::dvec3& near) {
+    if (respondTogether(colliders)) return Joint(colliders, samples, near).generate();
+    ColliderWriter writer(samples, near);
     writer.result.materials.resize(colliders.size());
     const size_t before = samples.size();
     const std::string body = colliders.empty() ? "" : sourceOfOne(writer.text(colliders[0], 0));

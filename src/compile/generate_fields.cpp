@@ -8,11 +8,12 @@
 
 namespace shoal {
 
-GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
+GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples,
+                               const glm::dvec3& near) {
     GeneratedFields out;
     CallWriter writer("fieldParameters[#]", 0, &samples);
     for (const Field& field : fields) {
-        const GlslCalls calls = std::visit([](const auto& kind) { return kind.calls(); }, *field.shape);
+        const GlslCalls calls = std::visit([&](const auto& kind) { return kind.calls(near); }, *field.shape);
         const std::string velocity = writer.text(calls);
         out.weights.push_back(writer.parameters.size());
         const std::string weight = writer.slot({}, field.weight) + ".w";

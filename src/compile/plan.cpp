@@ -260,6 +260,24 @@ void fill(GroupPlan& group, const Scene& scene, Plan& plan) {
     if (group.factored()) group.shape = molecule;
 }
 
+// The middle of the box around where molecules start and emitters emit, m.
+glm::dvec3 middleOf(const Scene& scene, const Plan& plan) {
+    glm::dvec3 low(1e300), high(-1e300);
+    const auto add = [&](const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    };
+    for (const GroupPlan& group : plan.groups) {
+        const size_t placed = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
+        for (size_t m = 0; m < placed; ++m)
+            add(group.start.anchors[m]);
+        if (!group.life) continue;
+        for (const Emitter& emitter : group.life->cycle.emitters)
+            if (emitter.from != Emitter::From::death) add(placeOf(emitter, scene.models).middle);
+    }
+    return low.x > high.x ? glm::dvec3(0) : 0.5 * (low + high);
+}
+
 }  // namespace
 
 void checkPlan(const Scene& scene) {
@@ -281,12 +299,13 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
+    const glm::dvec3 middle = middleOf(scene, plan);
     if (any(&Needs::fields)) {
-        plan.fields = generateFields(scene.fields, plan.samples);
+        plan.fields = generateFields(scene.fields, plan.samples, middle);
         plan.grids = describeGrids(scene.fields, plan.fields.noiseTiles);
     }
     if (any(&Needs::collide) || any(&Needs::avoids))
-        plan.colliders = generateColliders(scene.colliders, plan.samples);
+        plan.colliders = generateColliders(scene.colliders, plan.samples, middle);
     if (plan.fields.parameters.size() > maxParameters || plan.colliders.parameters.size() > maxParameters)
         throw Error(
             Location{scene.file, 0, 0, {}},

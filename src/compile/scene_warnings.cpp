@@ -224,11 +224,27 @@ void warnOfSizes(const Scene& scene, const Group& group, const GroupPlan& plan,
                                 " m: \"contact\": {\"radius\": ", radius, "} gives them their size")});
 }
 
+// The anchors' lattice of 1/16 m is one of floats only so far out.
+void warnOfFar(const Group& group, const GroupPlan& plan, std::vector<Warning>& warnings) {
+    constexpr float farthest = 1 << 20;  // m
+    const std::vector<glm::vec3>& anchors = plan.start.anchors;
+    const auto beyond = std::count_if(anchors.begin(), anchors.end(), [](const glm::vec3& anchor) {
+        return glm::any(glm::greaterThan(glm::abs(anchor), glm::vec3(farthest)));
+    });
+    if (beyond > 0)
+        warnings.push_back(
+            {group.location, concat(beyond, " of ", anchors.size(), " molecules of \"", plan.name,
+                                    "\" start more than ", int(farthest),
+                                    " m from the origin, where positions are rounded to an eighth of a "
+                                    "metre and more")});
+}
+
 }  // namespace
 
 void warnOf(const Scene& scene, Plan& plan) {
     for (const GroupPlan& group : plan.groups) {
         const Group& source = scene.groups[group.index];
+        warnOfFar(source, group, plan.warnings);
         warnOfStillAir(scene, source, group, plan.warnings);
         warnOfSwimmers(scene, source, group, plan.warnings);
         warnOfThinColliders(scene, source, group, plan.warnings);

@@ -96,7 +96,7 @@ class Heights {
 
   private:
     double sample(int x, int z) const {
-        return double(field_->heights[size_t(z) * size_t(field_->columns) + size_t(x)]);
+        return field_->level + double(field_->heights[size_t(z) * size_t(field_->columns) + size_t(x)]);
     }
 
     glm::dvec3 sampleNormal(int x, int z) const {
@@ -149,7 +149,8 @@ struct FactsOf {
     }
     SurfaceFacts operator()(const HeightFieldCollider& field) const {
         const glm::dvec2 cell = Heights(field).cell();
-        const double highest = double(*std::max_element(field.heights.begin(), field.heights.end()));
+        const double highest =
+            field.level + double(*std::max_element(field.heights.begin(), field.heights.end()));
         const double top = highest + thickness / leastUp(field, cell);
         return {.feature = std::min(cell.x, cell.y), .top = top, .steepest = 0, .exact = false};
     }

@@ -121,7 +121,7 @@ static void appendHeights(const HeightFieldCollider& field, glm::dvec2 cell, std
 GlslCall HeightFieldCollider::call() const {
     const glm::dvec2 cell = (high - low) / glm::dvec2(columns - 1, rows - 1);
     return GlslCall(sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored")
-        .from({low.x, 0, low.y})
+        .from({low.x, level, low.y})
         .four({1 / cell.x, cell.x, cell.y, 1 / cell.y})
         .text(concat("ivec2(", columns, ", ", rows, ")"))
         .samples([this, cell](std::vector<glm::vec4>& table) { appendHeights(*this, cell, table); });

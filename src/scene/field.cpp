@@ -1,6 +1,8 @@
 #include "scene/field_kinds.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "core/describe.h"
@@ -13,6 +15,28 @@ template class Boxed<FieldShape>;
 
 constexpr double turn = 2 * std::numbers::pi;
 
+static bool isFar(const glm::dvec3& way) {
+    constexpr double most = 1024;  // m: floats up to there are at most 6e-5 m apart
+    const glm::dvec3 size = glm::abs(way);
+    return std::max({size.x, size.y, size.z}) > most;
+}
+
+// Returns how many periods it is from `origin` to a point near `near`, along each of three directions that
+// are square to one another; none where that is not far. The columns are the periods, m.
+static glm::dvec3 periodsTo(const glm::dvec3& near, const glm::dvec3& origin, const glm::dmat3& periods) {
+    const glm::dvec3 way = near - origin;
+    glm::dvec3 out(0);
+    for (int i = 0; isFar(way) && i < 3; ++i)
+        out[i] = std::round(glm::dot(way, periods[i]) / glm::dot(periods[i], periods[i]));
+    return out;
+}
+
+// The cell of a lattice that `count` cells lead to; beyond 2^32 the lattice repeats, as its hash does.
+static std::string cellText(const glm::dvec3& count) {
+    const glm::uvec3 cell{glm::vec<3, int64_t>(count)};
+    return concat("uvec3(", cell.x, "u, ", cell.y, "u, ", cell.z, "u)");
+}
+
 const Description& describe(const UniformField*) {
     static const Description description =
         Describe<UniformField>("uniform", "The same velocity everywhere, and at all times.")
@@ -21,7 +45,7 @@ const Description& describe(const UniformField*) {
     return description;
 }
 
-GlslCalls UniformField::calls() const {
+GlslCalls UniformField::calls(const glm::dvec3&) const {
     return {GlslCall("vec3").vector(velocity)};
 }
 
@@ -38,7 +62,7 @@ const Description& describe(const OscillatingField*) {
     return description;
 }
 
-GlslCalls OscillatingField::calls() const {
+GlslCalls OscillatingField::calls(const glm::dvec3&) const {
     return {GlslCall("oscillatingVelocity")
                 .time()
                 .vector(velocity)
@@ -69,14 +93,16 @@ const Description& describe(const GustField*) {
     return description;
 }
 
-GlslCalls GustField::calls() const {
+GlslCalls GustField::calls(const glm::dvec3& near) const {
     const glm::dvec3 along = glm::normalize(direction);
     // an axis across: horizontal unless the wind blows vertically
     const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(up, along));
-    if (noise == NoiseForm::computed)
+    const glm::dvec3 across = glm::normalize(glm::cross(up, along)), third = glm::cross(along, across);
+    if (noise == NoiseForm::computed) {
+        const glm::dmat3 cells(along * length, across * width, third * width);
+        const glm::dvec3 passed = periodsTo(near, glm::dvec3(0), cells);
         return {GlslCall("gustVelocity")
-                    .place()
+                    .place(cells * passed)
                     .time()
                     .vector(along)
                     .vector(across)
@@ -85,21 +111,26 @@ GlslCalls GustField::calls() const {
                     .number(frontSpeed)
                     .pair({length, width})
                     .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
-                    .text(concat(seed, "u"))};
+                    .text(concat(seed, "u"))
+                    .text(cellText(passed))};
+    }
     const NoiseTile tile = noiseTile(0);
     const double tileLength = length * tile.cells.x, tileWidth = width * tile.cells.y;
-    return {GlslCall("gustFromTile")
-                .tile(tile)
-                .place()
-                .time()
-                .vector(along * speed)
-                .vector(along * speed * strength)
-                .vector(along / tileLength)
-                .vector(across / tileWidth)
-                .vector(glm::cross(along, across) / tileWidth)
-                .number(frontSpeed / tileLength)
-                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / tileLength})
-                .text(concat(seed, "u"))};
+    const glm::dmat3 tiles(along * tileLength, across * tileWidth, third * tileWidth);
+    const glm::dvec3 passed = periodsTo(near, glm::dvec3(0), tiles);
+    return {
+        GlslCall("gustFromTile")
+            .tile(tile)
+            .place(tiles * passed)
+            .time()
+            .vector(along * speed)
+            .vector(along * speed * strength)
+            .vector(along / tileLength)
+            .vector(across / tileWidth)
+            .vector(third / tileWidth)
+            .number(frontSpeed / tileLength)
+            .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / tileLength, .start = 0 - passed.x})
+            .text(concat(seed, "u"))};
 }
 
 // The rows of the gradient, which glm stores as columns.
@@ -136,11 +167,12 @@ const Description& describe(const ShearField*) {
     return description;
 }
 
-GlslCalls ShearField::calls() const {
+GlslCalls ShearField::calls(const glm::dvec3& near) const {
     const glm::dmat3 rows = glm::transpose(gradient);
+    const glm::dvec3 way = isFar(near - origin) ? near - origin : glm::dvec3(0);
     return {GlslCall("shearVelocity")
-                .from(origin)
-                .vector(velocity)
+                .from(origin + way)
+                .vector(velocity + gradient * way)
                 .vector(rows[0])
                 .vector(rows[1])
                 .vector(rows[2])};
@@ -161,7 +193,7 @@ const Description& describe(const VortexField*) {
     return description;
 }
 
-GlslCalls VortexField::calls() const {
+GlslCalls VortexField::calls(const glm::dvec3&) const {
     return {GlslCall("vortexVelocity")
                 .from(origin)
                 .vector(glm::normalize(axis))
@@ -184,8 +216,13 @@ const Description& describe(const AbcField*) {
     return description;
 }
 
-GlslCalls AbcField::calls() const {
-    return {GlslCall("abcVelocity").from(origin).number(a).number(b).number(c).number(turn / wavelength)};
+GlslCalls AbcField::calls(const glm::dvec3& near) const {
+    return {GlslCall("abcVelocity")
+                .from(origin + wavelength * periodsTo(near, origin, glm::dmat3(wavelength)))
+                .number(a)
+                .number(b)
+                .number(c)
+                .number(turn / wavelength)};
 }
 
 const Description& describe(const TaylorGreenField*) {
@@ -200,8 +237,11 @@ const Description& describe(const TaylorGreenField*) {
     return description;
 }
 
-GlslCalls TaylorGreenField::calls() const {
-    return {GlslCall("taylorGreenVelocity").from(origin).number(speed).number(turn / wavelength)};
+GlslCalls TaylorGreenField::calls(const glm::dvec3& near) const {
+    return {GlslCall("taylorGreenVelocity")
+                .from(origin + wavelength * periodsTo(near, origin, glm::dmat3(wavelength)))
+                .number(speed)
+                .number(turn / wavelength)};
 }
 
 const Description& describe(const CurlNoiseField*) {
@@ -220,23 +260,27 @@ const Description& describe(const CurlNoiseField*) {
     return description;
 }
 
-GlslCalls CurlNoiseField::calls() const {
+GlslCalls CurlNoiseField::calls(const glm::dvec3& near) const {
     const FieldClock clock{.kind = FieldClock::Kind::cells, .rate = 1 / period};
     const std::string seedText = concat(seed, "u");
-    if (noise == NoiseForm::computed)
+    if (noise == NoiseForm::computed) {
+        const glm::dvec3 passed = periodsTo(near, glm::dvec3(0), glm::dmat3(length));
         return {GlslCall("curlNoiseVelocity")
-                    .place()
+                    .place(length * passed)
                     .time()
                     .number(speed)
                     .number(length)
                     .number(period)
                     .text(concat(octaves))
                     .clock(clock)
-                    .text(seedText)};
+                    .text(seedText)
+                    .text(cellText(passed))};
+    }
     const NoiseTile tile = noiseTile(octaves);
+    const glm::dmat3 tiles(length * tile.cells.x);
     return {GlslCall("curlNoiseFromTile")
                 .tile(tile)
-                .place()
+                .place(tiles * periodsTo(near, glm::dvec3(0), tiles))
                 .time()
                 .number(speed * tile.range / 511)
                 .number(1 / (length * tile.cells.x))
@@ -246,9 +290,10 @@ GlslCalls CurlNoiseField::calls() const {
                 .text(seedText)};
 }
 
-GlslCalls GridField::calls() const {
+GlslCalls GridField::calls(const glm::dvec3& near) const {
     GlslCall out(times.empty() ? "gridVelocity" : "gridSequenceVelocity");
-    out.from(low)
+    const glm::dmat3 boxes(high.x - low.x, 0, 0, 0, high.y - low.y, 0, 0, 0, high.z - low.z);
+    out.from(wrap ? low + boxes * periodsTo(near, low, boxes) : low)
         .vector(glm::dvec3(resolution) / (high - low))
         .text(concat("ivec3(", resolution.x, ", ", resolution.y, ", ", resolution.z, ")"))
         .samples(values)
@@ -331,7 +376,7 @@ const Description& describe(const WavesField*) {
     return description;
 }
 
-GlslCalls WavesField::calls() const {
+GlslCalls WavesField::calls(const glm::dvec3& near) const {
     constexpr double deep = 1e9;  // m
     const double bottom = depth.value_or(deep);
     double top = 0;
@@ -340,10 +385,14 @@ GlslCalls WavesField::calls() const {
     GlslCalls out;
     for (const WaveTrain& train : trains) {
         const double k = turn / train.wavelength, frequency = std::sqrt(gravity * k * std::tanh(k * bottom));
+        const glm::dvec2 along = glm::normalize(glm::dvec2(train.direction.x, train.direction.z));
+        // as good across, and never again above or below
+        const glm::dmat3 waves(train.wavelength * glm::dvec3(along.x, 0, along.y), glm::dvec3(0, 1e30, 0),
+                               train.wavelength * glm::dvec3(-along.y, 0, along.x));
         out.push_back(GlslCall("waveVelocity")
-                          .from(origin)
+                          .from(origin + waves * periodsTo(near, origin, waves))
                           .time()
-                          .pair(glm::normalize(glm::dvec2(train.direction.x, train.direction.z)))
+                          .pair(along)
                           .number(k)
                           .number(frequency)
                           .clock({.rate = -frequency, .start = train.phase})
@@ -373,7 +422,7 @@ const Description& describe(const HurricaneField*) {
     return description;
 }
 
-GlslCalls HurricaneField::calls() const {
+GlslCalls HurricaneField::calls(const glm::dvec3&) const {
     return {GlslCall("hurricaneVelocity")
                 .from(origin)
                 .number(speed)

@@ -1,6 +1,9 @@
 // The kinds of vector fields, each with its description for files, the call of its function in
 // shaders/physics/field.glsl, and its double-precision twin in reference/fields.cpp. docs/adding-a-force.md
 // says how to add one. SI units, radians.
+//
+// `near` of a call: a point amid the molecules, m. Where it is far from a field's origin, what repeats or is
+// linear is told from a point near it, because a float holds no long way to the millimetre.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +21,7 @@ namespace shoal {
 
 struct UniformField {
     glm::dvec3 velocity{0};  // m/s
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Flows alike everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
@@ -26,7 +29,7 @@ struct OscillatingField {
     glm::dvec3 velocity{0};  // m/s, at the peak
     double frequency = 1;    // Hz, at least 0
     double phase = 0;        // rad
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // How a field has its noise.
@@ -49,14 +52,14 @@ struct GustField {
     double frontSpeed = 5;          // m/s
     uint32_t seed = 0;
     NoiseForm noise = NoiseForm::table;
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 struct ShearField {
     glm::dvec3 origin{0};
     glm::dvec3 velocity{0};  // m/s at the origin
     glm::dmat3 gradient{0};  // 1/s; rows in the file: u = velocity + gradient (x - origin)
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Scully's vortex: turns about the axis with peak speed at the core radius,
@@ -67,7 +70,7 @@ struct VortexField {
     double speed = 3;   // m/s at r = radius
     double radius = 1;  // m
     double lift = 0;    // m/s on the axis
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi /
@@ -76,7 +79,7 @@ struct AbcField {
     glm::dvec3 origin{0};
     double a = 1, b = 1, c = 1;             // m/s
     double wavelength = 6.283185307179586;  // m
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Taylor-Green: u = speed (cos kx sin ky, -sin kx cos ky, 0) cos kz.
@@ -84,7 +87,7 @@ struct TaylorGreenField {
     glm::dvec3 origin{0};
     double speed = 1;                       // m/s
     double wavelength = 6.283185307179586;  // m
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Curl of three gradient noises in (x / length, t / period): divergence-free and unbiased because it
@@ -96,7 +99,7 @@ struct CurlNoiseField {
     int octaves = 1;    // 1 to 4, each half the length, period and 2^(-1/3) of the speed
     uint32_t seed = 0;
     NoiseForm noise = NoiseForm::table;
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Numbered files as frames in time.
@@ -147,7 +150,7 @@ struct GridField {
 
     size_t cells() const { return size_t(resolution.x) * size_t(resolution.y) * size_t(resolution.z); }
     double period() const { return times.back() - times.front() + times.back() - times[times.size() - 2]; }
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // One wave train: the surface is amplitude cos(k . x - omega t + phase) above its level, k = 2 pi /
@@ -169,7 +172,7 @@ struct WavesField {
     std::optional<double> depth;  // m, of the bottom below it; without it the water is deep
     double gravity = 9.81;        // m/s^2
     std::vector<WaveTrain> trains;
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 // Holland's gradient wind [Holland 1980, eq. 5]
@@ -188,7 +191,7 @@ struct HurricaneField {
     double inflow = 0.35;   // rad, at the ground
     double height = 15000;  // m
     double coriolis = 0;    // 1/s, at least 0
-    GlslCalls calls() const;
+    GlslCalls calls(const glm::dvec3& near) const;
 };
 
 struct FieldShape : std::variant<UniformField, OscillatingField, GustField, ShearField, VortexField, AbcField,

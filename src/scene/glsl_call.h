@@ -25,13 +25,14 @@ struct ReadingCost {
 
 // One 4-vector of parameters that is renewed at the start of a frame at time t:
 //   angle    x: start + rate t, rad, less whole turns
-//   cells    rate t in cells of a lattice:  x: less whole ones;  y, z: the lower and the upper 16 bits of
-//   those frames   x: the frame of a sequence that was last passed;  y: s since then
+//   cells    start + rate t in cells of a lattice:  x: less whole ones;  y, z: the lower and the upper 16
+//            bits of those
+//   frames   x: the frame of a sequence that was last passed;  y: s since then
 struct FieldClock {
     enum class Kind { angle, cells, frames };
     Kind kind = Kind::angle;
     double rate = 0;              // rad/s, or cells per s
-    double start = 0;             // rad
+    double start = 0;             // rad, or cells
     std::vector<double> times{};  // s, of frames
     double period = 0;            // s, of frames that repeat; 0: they do not
 };
@@ -59,8 +60,11 @@ class GlslCall {
     // Passes the position from a point on in two parts: the way from the point to the anchor, which is the
     // same in every substep, and the position from there.
     GlslCall& apart(const glm::dvec3& point) { return add({Kind::apart, {point, 0}}); }
-    // The position in the world (vec3, m), and the time since the frame's start (float, s).
-    GlslCall& place() { return text("anchor + position"); }
+    // The position relative to a point, or where that is the scene's origin as one float (vec3, m).
+    GlslCall& place(const glm::dvec3& point) {
+        return point == glm::dvec3(0) ? text("anchor + position") : from(point);
+    }
+    // The time since the frame's start (float, s).
     GlslCall& time() { return text("time"); }
     GlslCall& four(const glm::dvec4& value) { return add({Kind::numbers, value, 4}); }
     // A vec3 and a float that share a parameter.

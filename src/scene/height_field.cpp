@@ -12,6 +12,13 @@ namespace {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
+// The level from which floats hold heights that are not below `lowest` well: that of the scene, where it is
+// near.
+double levelOf(double lowest) {
+    constexpr double far = 1024;  // m
+    return std::abs(lowest) > far ? std::floor(lowest) : 0;
+}
+
 // Raises every sample under the triangle, as seen from above, to the triangle.
 void rasterise(HeightFieldCollider& field, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec2 step = (field.high - field.low) / glm::dvec2(field.columns - 1, field.rows - 1);
@@ -35,7 +42,7 @@ void rasterise(HeightFieldCollider& field, const glm::dvec3& a, const glm::dvec3
             if (v < -edge || w < -edge || v + w > 1 + edge) continue;
             const double height = a.y + v * (b.y - a.y) + w * (c.y - a.y);
             float& sample = field.heights[size_t(row) * size_t(field.columns) + size_t(column)];
-            sample = std::max(sample, static_cast<float>(height));
+            sample = std::max(sample, static_cast<float>(height - field.level));
         }
 }
 
@@ -47,6 +54,7 @@ HeightFieldCollider heightFieldFromMesh(const Mesh& mesh, int columns, int rows,
     field.rows = rows;
     field.low = {mesh.low.x, mesh.low.z};
     field.high = {mesh.high.x, mesh.high.z};
+    field.level = levelOf(mesh.low.y);
     field.heights.assign(size_t(columns) * size_t(rows), nothing);
     const auto position = [&](int vertex) -> const glm::dvec3& { return mesh.positions[size_t(vertex)]; };
     for (const glm::ivec3& t : mesh.triangles)
@@ -54,7 +62,8 @@ HeightFieldCollider heightFieldFromMesh(const Mesh& mesh, int columns, int rows,
 
     const auto holes = std::count(field.heights.begin(), field.heights.end(), nothing);
     if (missed) *missed = static_cast<int>(holes);
-    std::replace(field.heights.begin(), field.heights.end(), nothing, static_cast<float>(mesh.low.y));
+    std::replace(field.heights.begin(), field.heights.end(), nothing,
+                 static_cast<float>(mesh.low.y - field.level));
     return field;
 }
 
@@ -65,10 +74,11 @@ HeightFieldCollider heightFieldFromImage(const HeightImage& image, glm::dvec2 lo
     field.rows = image.height;
     field.low = low;
     field.high = high;
+    field.level = levelOf(std::min(heights.x, heights.y));
     field.heights.reserve(image.values.size());
     for (const float grey : image.values)
         field.heights.push_back(
-            static_cast<float>(glm::mix(heights.x, heights.y, static_cast<double>(grey))));
+            static_cast<float>(glm::mix(heights.x, heights.y, static_cast<double>(grey)) - field.level));
     return field;
 }
 

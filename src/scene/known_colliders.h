@@ -42,6 +42,7 @@ struct HeightSource {
 struct HeightFieldCollider {
     int columns = 0, rows = 0;    // samples along x and z, at least 2
     glm::dvec2 low{0}, high{0};   // m: x and z of the first and last sample
+    double level = 0;             // m: y of the height 0
     std::vector<float> heights;   // m, x fastest
     bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
     HeightSource source = {};

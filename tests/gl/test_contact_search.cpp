@@ -74,10 +74,14 @@ TEST_CASE("the exact search finds every contact", "[molecule contact]") {
         scene.groups[1].name = "leaves";
         checkFound(scene);
     }
-    SECTION("100 km from the origin") {
-        Scene scene = strewn(500, dvec3(2), 0.04);
-        scene.groups[0].place.box = {dvec3(1e5, -1e5, 1e5), dvec3(1e5 + 2, -1e5 + 2, 1e5 + 2)};
-        checkFound(scene);
+    SECTION("far from the origin") {
+        for (const double distance : {1e3, 1e4, 1e5, 1e6}) {
+            CAPTURE(distance);
+            Scene scene = strewn(500, dvec3(0.4), 0.04, {0.2, 0.2});
+            const dvec3 corner(distance, -distance, distance);
+            scene.groups[0].place.box = {corner, corner + 0.4};
+            checkFound(scene);
+        }
     }
 }
 

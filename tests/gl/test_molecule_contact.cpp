@@ -432,8 +432,7 @@ TEST_CASE("a marble carries so many times its mass as its iterations tell", "[mo
         simulation.frame();
         for (size_t stack = 0; stack < 3; ++stack) {
             const Snapshot below = simulation.snapshot(2 * stack), above = simulation.snapshot(2 * stack + 1);
-            const double depth =
-                2 * radius - glm::distance(dvec3(below.positions[0]), dvec3(above.positions[0]));
+            const double depth = 2 * radius - glm::distance(below.positions[0], above.positions[0]);
             if (stack == 2) sunk = std::max(sunk, depth);
             if (i < 240) continue;
             fastest[stack] = std::max({fastest[stack], glm::length(dvec3(below.velocities[0])),
@@ -445,7 +444,7 @@ TEST_CASE("a marble carries so many times its mass as its iterations tell", "[mo
     CHECK(fastest[0] < 1e-3);
     CHECK(deepest[0] < 0.01 * 2 * radius);
     CHECK(fastest[1] > 0.01);
-    CHECK(sunk < 0.21 * 2 * radius);  // as fast as what contacts remember grows (contact/response/pair.glsl)
+    CHECK(sunk < 0.21 * 2 * radius);  // contact/response/pair.glsl: how fast memory grows
 }
 
 }  // namespace shoal

@@ -108,10 +108,18 @@ struct CellPlace {
 };
 CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
 {
-    vec3 base = floor(clamp(anchor / cell, -1e9f, 1e9f));
-    vec3 rest = (anchor - base * cell) + position;
+    int bits = floatBitsToInt(cell);
+    int doublings = min((bits >> 23) - 127, 26);
+    int size = (16 + ((bits >> 19) & 15)) << max(doublings, 0);
+    int finer = 1 << max(-doublings, 0);
+    ivec3 point = ivec3(clamp(anchor * 16.0f, -1e9f, 1e9f));
+    ivec3 whole = ivec3(floor(vec3(point) / float(size)));
+    ivec3 part = (point - whole * size) * finer;
+    ivec3 fine = ivec3(floor(vec3(part) / float(size)));
+    ivec3 base = ivec3(uvec3(whole) * uint(finer)) + fine;
+    vec3 rest = vec3(part - fine * size) * (0.0625f / float(finer)) + position;
     vec3 steps = floor(clamp(rest / cell, -1e9f, 1e9f));
-    ivec3 index = ivec3(base) + ivec3(steps);
+    ivec3 index = base + ivec3(steps);
     vec3 inCell = clamp(rest - steps * cell, 0.0f, cell);
     return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
 }

@@ -26,6 +26,21 @@ TEST_CASE("a tilted plane rasterises to its own heights", "[heightField]") {
         }
 }
 
+TEST_CASE("heights far up are as exact as at the origin", "[heightField]") {
+    for (const double up : {0.0, 1e3, 1e4, 1e5, 1e6, -1e6}) {
+        Mesh mesh = square(8);
+        for (glm::dvec3& p : mesh.positions)
+            p.y = 0.5 * p.x - 0.25 * p.z + up + 0.3;
+        completeMesh(mesh);
+        const HeightFieldCollider field = heightFieldFromMesh(mesh, 17, 9);
+        const HeightFieldCollider painted =
+            heightFieldFromImage({2, 2, {0, 1, 0.5f, 0.25f}}, {-1, -2}, {1, 2}, {up + 0.3, up + 0.7});
+        CAPTURE(up);
+        CHECK(std::abs(field.level + double(field.heights[40]) - (up + 0.3 - 0.5 + 0.5)) < 1e-4);
+        CHECK(std::abs(painted.level + double(painted.heights[1]) - (up + 0.7)) < 1e-4);
+    }
+}
+
 TEST_CASE("the highest of several surfaces counts", "[heightField]") {
     Mesh mesh;
     addTube(mesh, "tube", {0, 1, 0}, 1, 2, 64, 3);

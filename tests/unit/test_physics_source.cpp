@@ -57,8 +57,9 @@ TEST_CASE("shader noise agrees with the reference on both sides of 0", "[physics
     for (int i = 0; i < 2000; ++i) {
         const vec3 p = sample(i);
         // weights add up to 1 and ramps are below 3: a few rounding steps
-        REQUIRE(std::abs(shader::gradientNoise(p, 0u, 11u) - reference::gradientNoise(dvec3(p), 11)) < 1e-6);
-        const vec3 curl = shader::curlNoise(p, timeOf(i) - 2, 0u, 5u);
+        REQUIRE(std::abs(shader::gradientNoise(p, glm::uvec3(0u), 11u) -
+                         reference::gradientNoise(dvec3(p), 11)) < 1e-6);
+        const vec3 curl = shader::curlNoise(p, timeOf(i) - 2, 0u, 5u, glm::uvec3(0u));
         REQUIRE(glm::length(dvec3(curl) - reference::curlNoise(dvec3(p), double(timeOf(i)) - 2, 5)) < 1e-5);
     }
 }
@@ -68,7 +69,7 @@ TEST_CASE("the slope of the shader's noise is that of its values", "[physics]") 
     for (int i = 0; i < 500; ++i) {
         const vec3 p = sample(i);
         const glm::vec4 slope = shader::gradientNoiseSlope(p, 11u);
-        REQUIRE(slope.w == Approx(shader::gradientNoise(p, 0u, 11u)).margin(1e-6));
+        REQUIRE(slope.w == Approx(shader::gradientNoise(p, glm::uvec3(0u), 11u)).margin(1e-6));
         for (int axis = 0; axis < 3; ++axis) {
             dvec3 ahead(p), behind(p);
             ahead[axis] += step, behind[axis] -= step;
@@ -111,13 +112,14 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
     const vec3 along(gust.direction), across(reference::gustAcross(gust.direction));
     // 5 m/s of noise whose argument, up to 20 at the second octave, has lost 2e-6
     CHECK(worst(gust, [&](vec3 x, float time) {
-              return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 0, 0u, 3u);
+              return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 0, 0u, 3u,
+                                          glm::uvec3(0u));
           }) < 3e-5);
 
     CurlNoiseField curl{
         .speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77, .noise = NoiseForm::computed};
     CHECK(worst(curl, [&](vec3 x, float time) {
-              return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 0, 0u, 77u);
+              return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 0, 0u, 77u, glm::uvec3(0u));
           }) < 3e-5);
 }
 

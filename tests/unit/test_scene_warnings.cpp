@@ -88,6 +88,16 @@ TEST_CASE("points that are drawn larger than they touch are warned of", "[warnin
     CHECK_THAT(warningsOf("", balls), !Contains("drawn"));
 }
 
+TEST_CASE("molecules that start where positions are rounded are warned of", "[warnings]") {
+    const auto at = [](const char* x) {
+        return warningsOf(
+            "", concat(R"("particle": {"mass": 1}, "place": {"on": "list", "items": [{"position": [)", x,
+                       ", 0, 0]}, {}]}"));
+    };
+    CHECK_THAT(at("-1048577"), Contains("1 of 2 molecules") && Contains("1048576 m from the origin"));
+    CHECK_THAT(at("-1048576"), !Contains("from the origin"));
+}
+
 TEST_CASE("a school that cannot swim is warned of", "[warnings]") {
     const std::string molecules = SHOAL_SOURCE_DIR "/molecules/";
     CHECK_THAT(warningsOf("", swimmers(molecules + "fry.json")), !Contains("swim"));
