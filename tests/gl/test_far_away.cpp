@@ -220,7 +220,7 @@ TEST_CASE("a pile far out lies as one at the origin", "[molecule contact][far]")
         scene.gravity = {0, -9.81, 0};
         scene.contact.iterations = 8;
         test::setSteps(scene, 1 / 60.0, 8);
-        scene.groups[0].contact = GroupContact{.radius = radius};
+        scene.groups[0].contact.emplace().radius = radius;
         scene.groups[0].friction = 0.9;
         scene.groups[0].restitution = 0;
         Collider floor = on(BoxCollider{origin + dvec3(0, -0.5, 0), {60, 1, 60}});

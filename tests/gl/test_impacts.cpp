@@ -240,4 +240,36 @@ TEST_CASE("no cluster of bodies or sheets gains energy from an impact, or moment
     CHECK(lost < 1e-5);
 }
 
+// Four corners at once: one impact in their middle, by which neither turns, as two marbles have it.
+TEST_CASE("a cube that strikes another flat does not turn", "[impacts]") {
+    if (!canFuse()) return;
+    const Path path = GENERATE(Path::fused, Path::fragments);
+    Molecule cube = leaf(1e6, 0);
+    cube.vertices.resize(8, cube.vertices[0]);
+    cube.springs.resize(0);
+    cube.triangles.resize(0);
+    for (int i = 0; i < 8; ++i) {
+        cube.vertices[size_t(i)].position = dvec3(i & 1, i >> 1 & 1, i >> 2) * 0.1;
+        for (int k = 0; k < i; ++k)
+            cube.springs.push_back({k, i, 1e6, 0, {}, {}});
+    }
+    Scene scene = sceneOf(cube, SolverKind::bdf2Xpbd, {at(dvec3(0)), at({0, 0.165, 0})});
+    scene.groups[0].contact.emplace().radius = 0.03;
+    setSteps(scene, 0.01, 1);
+    std::vector<dvec3> velocities(8, dvec3(0.1, 0, 0));
+    velocities.insert(velocities.end(), 8, dvec3(0.1, -1, 0));
+    const double e = GENERATE(0.2, 0.9);
+    Simulation simulation = startedWith(scene, velocities, vec2(float(e), 0), path);
+    REQUIRE(simulation.plan().groups[0].rigid);
+    simulation.frame();
+    const Snapshot after = simulation.snapshot(0);
+    double worst = 0;
+    for (size_t i = 0; i < 16; ++i) {
+        const dvec3 wanted = i < 8 ? dvec3(0.1, -(1 + e) / 2, 0) : dvec3(0.1, -(1 - e) / 2, 0);
+        worst = std::max(worst, glm::distance(dvec3(after.velocities[i]), wanted));
+    }
+    CAPTURE(name(path), e, worst);
+    CHECK(worst < 1e-5);
+}
+
 }  // namespace shoal

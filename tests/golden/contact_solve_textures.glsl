@@ -67,6 +67,10 @@ bool isActedOn(uint counted)
 {
     return (counted & ~RESPONDS) != 0u;
 }
+float asMemory(uint counted)
+{
+    return uintBitsToFloat(counted | RESPONDS);
+}
 const uint FLAG = 0x80000000u;
 uint withFlag(float number, bool isSet)
 {
@@ -262,28 +266,14 @@ ContactImpulse noImpulse(int kind)
 const float restingOverlap = 0.005f;
 struct PairContact {
     vec3 normal;
-    float since;
     float depth;
     float speed;
-    bool impact;
 };
-PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
+PairContact pairContact(vec3 d, vec3 u, float reach, float side)
 {
-    float squared = dot(d, d);
-    float along = dot(d, u);
-    float fast = dot(u, u);
-    float inside = reach * reach - squared;
-    float under = along * along + fast * inside;
-    bool met = inside > 0.0f || (along > 0.0f && under > 0.0f);
-    float root = sqrt(max(under, 0.0f));
-    float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
-    vec3 touch = (d - u * since) / reach;
-    float touchSpeed = dot(touch, u);
-    bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
-    float apart = sqrt(squared);
+    float apart = sqrt(dot(d, d));
     vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
-    return PairContact(impact ? touch : direction, impact ? since : 0.0f, reach - apart,
-                       impact ? touchSpeed : dot(direction, u), impact);
+    return PairContact(direction, reach - apart, dot(direction, u));
 }
 struct PairImpact {
     vec3 normal;
@@ -529,13 +519,13 @@ vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
     return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
-Pair pairOf(int slot, int other, float bounceFrom)
+Pair pairOf(int slot, int other)
 {
     Pair pair;
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
-    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius, stepTime,
-                               SPREADS ? bounceFrom : 1e30, slot < other ? 1.0 : -1.0);
+    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius,
+                               slot < other ? 1.0 : -1.0);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
@@ -564,7 +554,7 @@ bool isDeep(PairContact contact, float reach)
 void leaveAsCome(inout Pair pair, vec3 anchor)
 {
     float reach = own.radius + pair.sphere.radius;
-    if (pair.contact.impact || !isDeep(pair.contact, reach)) return;
+    if (!isDeep(pair.contact, reach)) return;
     vec3 n = anchor / max(length(anchor), 1e-30);
     pair.contact.normal = n;
     pair.contact.depth = reach - dot(pair.apart, n);
@@ -572,7 +562,7 @@ void leaveAsCome(inout Pair pair, vec3 anchor)
 }
 Pair pairAs(int slot, int other, ContactImpulse begun)
 {
-    Pair pair = pairOf(slot, other, begun.kind == PERSISTENT ? 1e30 : restSpeed);
+    Pair pair = pairOf(slot, other);
     pair.meets = pair.meets && begun.kind != NO_PART;
     leaveAsCome(pair, begun.anchor);
     return pair;
@@ -617,9 +607,8 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     vec2 effective = vec2(effectiveCountOf(slot, own), effectiveCountOf(other, pair.sphere));
     vec2 weights = stepWeights(weightsBetween(pair, contact.normal, effective), max(effective.x, effective.y));
     float reach = own.radius + pair.sphere.radius;
-    float target = contact.impact ? -pair.material.x * contact.speed : partingSpeed(contact.depth, reach, isLoaded(begun));
-    float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
-    return Constraint(contact.normal, target, weights, lacks, pair.meets ? pair.material.y : -1.0);
+    return Constraint(contact.normal, partingSpeed(contact.depth, reach, isLoaded(begun)), weights, lacking(contact.depth, reach),
+                      pair.meets ? pair.material.y : -1.0);
 }
 struct Moved {
     vec3 velocity;
