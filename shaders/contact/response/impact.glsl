@@ -73,7 +73,7 @@ struct Impact {
     int pairs;                    // how many
     ivec2 slots[MOST_AT_ONCE];    // x of the one molecule, y of the other
     uvec2 entries[MOST_AT_ONCE];  // of the other of the two in the list of each
-    vec3 normal;                  // unit, from y to x
+    vec3 normal;                  // from y to x, unit in the end
     vec3 velocity;                // m/s, of x relative to y, the mean
     float since;                  // s, how long ago
     vec3 impulse;                 // N s, on all of x together
@@ -88,11 +88,13 @@ bool isMutual(int slot, Choice choice)
     return sphereAt(other).weight == 0.0 || choiceOf(other).other == uint(slot);
 }
 
+// Adds a pair, if it meets in much the same direction as those before.
 void addPair(inout Impact all, int slot, uvec2 entries, int other)
 {
     loadSphere(slot);
     Sphere sphere = sphereAt(other);
     PairImpact impact = impactOf(slot, other, sphere);
+    if (dot(all.normal, impact.normal) < 0.9 * float(all.pairs)) return;
     if (all.pairs == 0) all.since = impact.since;
     all.slots[all.pairs] = ivec2(slot, other);
     all.entries[all.pairs] = entries;
@@ -133,11 +135,12 @@ vec3 impulseOf(Impact all, vec2 material)
 Impact impactAt(int slot, Choice choice)
 {
     int other = int(choice.other);
+    bool moves = sphereAt(other).weight > 0.0;  // or else nothing may move its molecule here
     Impact all;
     all.pairs = 0;
     all.normal = vec3(0.0);
     all.velocity = vec3(0.0);
-    addPair(all, slot, uvec2(choice.entry, isFirst || sphereAt(other).weight == 0.0 ? 0u : choiceOf(other).entry), other);
+    addPair(all, slot, uvec2(choice.entry, moves ? choiceOf(other).entry : 0u), other);
     vec2 material = materialOf(own, sphereAt(other));
     float same = restingOverlap * (own.radius + radiusAt(other));  // m
     uint label = placesAt(other).w;
@@ -148,7 +151,7 @@ Impact impactAt(int slot, Choice choice)
             Choice next = choiceOf(beside);
             if (beside == slot || next.other == NOBODY || placesAt(int(next.other)).w != label) continue;
             if (abs(next.since - choice.since) * -choice.speed > same || !isMutual(beside, next)) continue;
-            bool moves = sphereAt(int(next.other)).weight > 0.0;
+            if (sphereAt(int(next.other)).weight > 0.0 != moves) continue;
             addPair(all, beside, uvec2(next.entry, moves ? choiceOf(int(next.other)).entry : 0u), int(next.other));
         }
     }
