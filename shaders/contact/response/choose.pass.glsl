@@ -11,14 +11,8 @@ const bool isFirst = true;
 const bool isFirst = false;
 #endif
 #pragma writes choices
-#include "contact/response/impact.glsl"
+#include "contact/response/choice.glsl"
 #pragma reads impactRounds impactSlots
-
-// Nothing is known of others' choices while they are made.
-Choice choiceOf(int slot)
-{
-    return noChoice;
-}
 
 Choice choose(int slot)
 {
@@ -29,7 +23,7 @@ Choice choose(int slot)
         Sphere sphere = sphereAt(other);
         PairImpact impact = impactOf(slot, other, sphere);
         Choice next = Choice(uint(other), uint(e), impact.since, impact.speed);
-        bool isEarlier = impact.happens && (best.other == NOBODY || isBefore(slot, next, slot, best));
+        bool isEarlier = isOne(impact, sphere) && (best.other == NOBODY || isBefore(slot, next, slot, best));
         while (isEarlier) {  // rare (contact/search/find.pass.glsl)
             loadMemory(slot);
             if (!haveMet(slot, other, sphere) && !isClosed(oldContact(other), areStruck(slot, other, sphere))) best = next;
@@ -52,6 +46,12 @@ void main()
 }
 #elif defined(FIRST)
 #include "contact/response/strike.glsl"
+
+// Nothing is known of others' choices while they are made.
+Choice choiceOf(int slot)
+{
+    return noChoice;
+}
 
 // Two spheres that neither touch nor move anything else: the lower slot's lane has them both, and reads neither after it has struck it.
 bool isPair(int slot, int other)

@@ -30,7 +30,7 @@ int nextOf(int slot)
 // Whether a slot's choice happens: it is the next of both molecules.
 bool happens(int slot, Choice choice)
 {
-    if (choice.other == NOBODY || nextOf(slot) != slot || !isMutual(slot, choice)) return false;
+    if (choice.other == NOBODY || !isMutual(slot, choice) || nextOf(slot) != slot) return false;
     int other = int(choice.other);
     return sphereAt(other).weight == 0.0 || nextOf(other) == other;
 }
@@ -83,16 +83,14 @@ void main()
     if (gl_GlobalInvocationID.x >= impactGroupsBuffer[3]) return;
     int slot = int(impactSlotsAt(ownNumber()));
     Choice choice = choiceOf(slot);
-    if (choice.other == NOBODY) return;
     int other = int(choice.other);
-    if (!happens(slot, choice)) {
-        putImpactRounds(slot, uint(roundNumber + 1));
-        return;
+    bool isOther = choice.other != NOBODY && sphereAt(other).weight > 0.0;
+    bool strikes = !(isOther && slot > other) && happens(slot, choice);
+    while (strikes) {  // rare (contact/search/find.pass.glsl)
+        strike(slot, choice);
+        allChooseAnew(slot);
+        if (isOther) allChooseAnew(other);
+        strikes = false;
     }
-    bool isOther = sphereAt(other).weight > 0.0;
-    if (isOther && slot > other) return;
-    strike(slot, choice);
-    allChooseAnew(slot);
-    if (isOther) allChooseAnew(other);
 }
 #endif
