@@ -79,9 +79,15 @@ Impact impactAt(int slot, Choice choice)
     all.velocity = vec3(0.0);
     addPair(all, slot, uvec2(choice.entry, moves ? choiceOf(other).entry : 0u), other);
     vec2 material = materialOf(own, sphereAt(other));
+    if (!SPREADS) {  // the same in less
+        vec3 wanted = pairImpulse(all.velocity, all.normal, -material.x * dot(all.normal, all.velocity), vec3(0.0),
+                                  vec2(own.weight + sphereAt(other).weight));
+        all.impulse = withinFriction(wanted, all.normal, material.y);
+        return all;
+    }
     float same = restingOverlap * (own.radius + radiusAt(other));  // m
     uint label = placesAt(other).w;
-    if (SPREADS && own.label != label) {
+    if (own.label != label) {
         Molecule molecule = moleculeOf(slot);
         for (int k = 0; k < molecule.spheres && all.pairs < MOST_AT_ONCE; ++k) {
             int beside = slotOfSphere(molecule, k);
