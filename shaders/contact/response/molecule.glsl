@@ -1,4 +1,4 @@
-// The molecule of a slot, for what knows no group, and how an impulse on one of its spheres moves the others (as contact/response/changes.glsl
+// The molecule of a slot, of any group, and how an impulse on one of its spheres moves the others (as contact/response/changes.glsl
 // has it of one group).
 #include "contact/response/body.glsl"
 #include "contact/slots.glsl"
@@ -13,11 +13,11 @@ struct Molecule {
 
 Molecule moleculeOf(int slot)
 {
-    int group = 2 * int(placesAt(slot).w >> 26u);
+    uint label = placesAt(slot).w;
+    int group = 2 * int(label >> 26u);
     ivec2 spheres = ivec2(groupsOfAt(group).xy);
     ivec2 shape = ivec2(groupsOfAt(group + 1).xy);
-    int before = (sphereOf(slot) - spheres.x) / spheres.y;
-    return Molecule(spheres.x + before * spheres.y, spheres.y, shape.x, shape.y);
+    return Molecule(spheres.x + int(label & 0x3ffffffu) * spheres.y, spheres.y, shape.x, shape.y);
 }
 
 int slotOfSphere(Molecule molecule, int k)

@@ -4,7 +4,7 @@
 #include "state/lanes.glsl"
 #include "contact/rest/marks.glsl"
 #include "contact/response/memory.glsl"
-#pragma reads groupsOf
+#include "contact/response/molecule.glsl"
 
 uniform int contactsAway;  // of what wakes others in this dispatch
 uniform bool last;
@@ -23,11 +23,9 @@ void main()
 {
     int slot = min(int(gl_GlobalInvocationID.x), count - 1);
     if ((marksAt(slot) & (STRUCK << contactsAway)) == 0u) return;
-    uint label = placesAt(slot).w;
-    ivec2 group = ivec2(groupsOfAt(2 * int(label >> 26u)).xy);
-    int first = group.x + int(label & 0x3ffffffu) * group.y;
-    for (int sphere = first; sphere < first + group.y; ++sphere) {
-        wakePartners(sphere);
-        mark(int(slotsAt(sphere)), WOKEN);
+    Molecule molecule = moleculeOf(slot);
+    for (int k = 0; k < molecule.spheres; ++k) {
+        wakePartners(molecule.first + k);
+        mark(slotOfSphere(molecule, k), WOKEN);
     }
 }
