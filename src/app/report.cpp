@@ -118,7 +118,9 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
     if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
     if (simulation.contact())
         append(out, key("contactBytes", simulation.contact()->bytes()),
-               key("contactsDropped", simulation.contact()->dropped()));
+               key("contactsDropped", simulation.contact()->dropped()),
+               key("contactIterations", simulation.contact()->convergence().iterations),
+               key("contactResidual", simulation.contact()->convergence().residual));
     return out;
 }
 

@@ -69,6 +69,7 @@ class ContactEntrant {
         step_.restitution = plan.contact.pairs[0].x;
         step_.friction = plan.contact.pairs[0].y;
         step_.iterations = plan.contact.settings.iterations;
+        step_.tolerance = float(plan.contact.settings.tolerance);
         plain_.frame();
         start_ = plain_.save().groups[0];
         if (device.ownTimes)

@@ -71,6 +71,7 @@ struct Piece {
     std::vector<Contact> contacts;  // with them
     std::vector<Active> active;
     std::vector<Kept> kept;
+    float residual = 0;  // of the last iteration
 };
 
 }  // namespace
@@ -247,7 +248,9 @@ struct ContactBaseline::Data {
 
     // Does an iteration, from the impulses of the last two, extrapolated by `momentum`. The spheres' motion
     // is extrapolated by `nextMomentum`, for the next iteration.
-    void relax(Piece& piece, float friction, float momentum, float nextMomentum) {
+    // Leaves the residual of what it answers (shaders/contact/response/iteration.glsl).
+    void relax(Piece& piece, const ContactBaselineStep& step, float momentum, float nextMomentum) {
+        piece.residual = 0;
         for (Active& active : piece.active) {
             const Going own = going[size_t(active.slot)];
             vec3 total = -active.acted, shift(0);
@@ -257,15 +260,23 @@ struct ContactBaseline::Data {
                 const Going& other = going[size_t(contact.other)];
                 const vec3 u = own.velocity - other.velocity;
                 const float along = glm::dot(u, n);
-                const vec3 wanted = contact.impulse + (contact.impulse - contact.earlier) * momentum +
-                                    n * ((contact.target - along) * contact.stepAlong) -
+                const vec3 ahead = contact.impulse + (contact.impulse - contact.earlier) * momentum;
+                const vec3 wanted = ahead + n * ((contact.target - along) * contact.stepAlong) -
                                     (u - n * along) * contact.stepAcross;
                 const float lacks = contact.lacks - glm::dot(own.move - other.move, n);
                 const float apart = contact.apart + (contact.apart - contact.earlierApart) * momentum;
                 contact.earlier = contact.impulse;
                 contact.earlierApart = contact.apart;
-                contact.impulse = withinFriction(wanted, n, friction, contact.sticks);
+                contact.impulse = withinFriction(wanted, n, step.friction, contact.sticks);
                 contact.apart = std::max(apart + lacks * contact.stepAlong, 0.0f);
+                if (contact.takesPart) {
+                    const vec3 change = contact.impulse - ahead;
+                    const float pushed = glm::dot(change, n);
+                    const float speed = std::max(std::abs(pushed) / contact.stepAlong,
+                                                 glm::length(change - n * pushed) / contact.stepAcross);
+                    const float move = std::abs(contact.apart - apart) / contact.stepAlong;
+                    piece.residual = std::max({piece.residual, speed / std::max(step.restSpeed, 1e-20f), 2 * move / reach});
+                }
                 total += contact.impulse;
                 shift += n * contact.apart;
             }
@@ -347,7 +358,8 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
     data.grid.build(data.state);
     data.each([&](int thread, Piece& piece) { data.find(thread, piece); });
     data.each([&](int, Piece& piece) { data.beginImpacts(piece, step.stepTime); });
-    for (uint32_t round = 1; round <= uint32_t(step.iterations); ++round) {
+    const int rounds = std::min(step.iterations, ContactPlan::mostRounds);
+    for (uint32_t round = 1; round <= uint32_t(rounds); ++round) {
         data.each([&](int, Piece& piece) { data.choose(piece, round, step.restSpeed); });
         data.each([&](int, Piece& piece) {
             for (const Active& active : piece.active)
@@ -360,8 +372,11 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
         return i < step.iterations ? ContactPlan::momentum(i, step.iterations) : 0;
     };
     for (int i = 0; i < step.iterations; ++i) {
-        data.each([&](int, Piece& piece) { data.relax(piece, step.friction, momentum(i), momentum(i + 1)); });
+        data.each([&](int, Piece& piece) { data.relax(piece, step, momentum(i), momentum(i + 1)); });
         data.going.swap(data.newGoing);
+        const auto isDone = [&](const Piece& piece) { return piece.residual <= step.tolerance; };
+        const bool endsBatch = i > 0 && (step.iterations - i) % 2 == 1;
+        if (endsBatch && std::all_of(data.pieces.begin(), data.pieces.end(), isDone)) break;
     }
     data.each([&](int thread, Piece& piece) { data.apply(thread, piece, step); });
     ++data.number;

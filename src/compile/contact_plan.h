@@ -84,6 +84,8 @@ struct ContactPlan {
     // So many times its own mass a sphere carries at rest, with so many iterations; under more it sways, or
     // what lies on it sinks in. Measured: docs/contact-figures.md.
     static double carried(int iterations);
+    // Rounds of impacts in a step.
+    static constexpr int mostRounds = 4;
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
     // it, and where friction slides 0.9 of it does not converge.

@@ -155,8 +155,9 @@ struct ContactSettings {
     ContactResponse response = ContactResponse::simultaneous;
     int neighbors = 8;  // of the UberFlow searches, to either side
     int steps = 0;      // contact steps of a frame; 0: one a substep
-    static constexpr int mostIterations = 64;
-    int iterations = 4;             // of the simultaneous response
+    static constexpr int mostIterations = 256;
+    int iterations = 8;             // of the simultaneous response, at most
+    double tolerance = 5e-4;        // the residual at which they end
     std::optional<double> fastest;  // m/s, relative to one another: none passes through another up to this
     std::optional<double> rest;     // m/s: what moves more slowly for a while rests; nothing: nothing does
     std::optional<double> cell;     // m; nothing: as large as the largest spheres need

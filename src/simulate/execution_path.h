@@ -36,12 +36,20 @@ struct SimulationOptions {
     size_t largestPart = 0;
 };
 
+// How the iterations of a contact step ended.
+struct ContactConvergence {
+    int iterations = 0;             // that ran
+    std::optional<float> residual;  // that they left; nothing is known of a single one, or without gravity
+};
+
 // Gives tests, benchmarks and reports the results of contact between molecules.
 class ContactResult {
   public:
     virtual ~ContactResult() = default;
     // Contacts that were left out, of all steps so far, because a sphere touched more than a list holds.
     virtual uint32_t dropped() const = 0;
+    // Of the last step. Reads back.
+    virtual ContactConvergence convergence() const = 0;
     // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
     // ascending. For tests and reports: reads the lists back.
     virtual std::vector<std::pair<int, int>> found() const = 0;

@@ -410,7 +410,7 @@ TEST_CASE("the ping-pong path refuses what only the fused one has of contact", "
 // colliders.
 TEST_CASE("a marble carries so many times its mass as its iterations tell", "[molecule contact]") {
     const Path path = GENERATE(Catch::Generators::from_range(fusedPaths()));
-    const int iterations = GENERATE(4, 16, 64);
+    const int iterations = GENERATE(4, 16, 64, 256);
     if (iterations > 16 && path != Path::fused) return;  // half a minute
     const double radius = 0.05, carried = ContactPlan::carried(iterations);
     Scene scene;

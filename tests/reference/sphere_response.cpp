@@ -88,7 +88,7 @@ class Response {
         }
         straight_.assign(spheres_->size(), settings_.stepTime);
         last_.assign(spheres_->size(), -1);
-        for (int round = 0; round < settings_.iterations; ++round)
+        for (int round = 0; round < std::min(settings_.iterations, 4); ++round)
             strike();
         for (Meeting& m : meetings_)
             prepare(m);

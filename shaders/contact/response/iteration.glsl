@@ -50,6 +50,18 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
                       pair.meets ? pair.material.y : -1.0);
 }
 
+#ifndef FIRST
+#pragma reads normals weights
+
+// Returns what was worked out.
+Constraint constraintOf(int slot, int e)
+{
+    vec4 normal = normalsAt(ownRow(slot), e);
+    vec4 weights = weightsAt(ownRow(slot), e);
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
+}
+#endif
+
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
 struct Moved {
     vec3 velocity;  // m/s
@@ -81,6 +93,24 @@ void loadOwn(int slot)
     loadSphere(slot);
     ownCount = effectiveCountOf(slot, own);
     ownMoved = movedAt(slot);
+}
+
+// Returns that of a collider, a body of infinite mass, which does not ask whether it slides.
+Constraint constrainCollider(NearCollider near)
+{
+    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
+    return Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius), near.friction);
+}
+
+// Returns the residual of a contact: by how much its relative velocity, as a part of that which is no impact, or its overlap, as a part of the
+// radius, differs from what is asked where an iteration takes its impulse from the last two to `next`.
+float residualOf(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+    vec3 change = next.xyz - ahead(push.xyz, before.xyz);
+    float along = dot(change, asked.normal);
+    float speed = max(abs(along) * asked.weights.x, length(change - along * asked.normal) * asked.weights.y);
+    float move = (abs(next.w) - ahead(vec3(abs(push.w)), vec3(abs(before.w))).x) * asked.weights.x;
+    return max(speed / max(restSpeed, 1e-20), abs(move) / own.radius);  // without gravity, of any speed a very large one
 }
 
 // Returns a contact's impulse after the iteration, from the last two; w of both: how far they push apart.

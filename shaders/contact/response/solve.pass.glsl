@@ -2,7 +2,7 @@
 // place of `earlierImpulses`, which are `impulses` from then on, and the first (FIRST) works out the constraints for all. In fragments passes
 // before it work out the constraints (FIRST) and then the impulses (ENTRIES), some in each; this one works out the colliders' and the
 // sums.
-#pragma updates impulses earlierImpulses colliderImpulses earlierColliderImpulses
+#pragma updates impulses earlierImpulses earlierTotals colliderImpulses earlierColliderImpulses
 #ifdef FIRST
 const float momentum = 0.0;
 #pragma updates normals weights when buffers
@@ -22,15 +22,6 @@ Constraint constraintOf(int slot, int e)
     putWeights(row, e, vec4(made.weights, made.lacks, made.friction));
     return made;
 }
-#else
-#pragma reads normals weights
-
-Constraint constraintOf(int slot, int e)
-{
-    vec4 normal = normalsAt(ownRow(slot), e);
-    vec4 weights = weightsAt(ownRow(slot), e);
-    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
-}
 #endif
 
 #ifdef ENTRIES
@@ -47,31 +38,64 @@ void makeEntry(int slot, int e)
 #endif
 }
 #else
-#include "contact/grid/colliders.glsl"
 #pragma reads warmStart
 #pragma writes nextTotals nextVelocities nextColliderImpulses
 
 uniform float nextMomentum;  // of the next iteration
+#if !defined(FIRST) && !defined(TEXTURES)
+#include "contact/response/batches.glsl"
+
+uniform int batch;  // that ends with this iteration, or -1
+uniform float tolerance;
+float residual = 0.0;  // of the own contacts
+
+void addResidual(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+    if (batch >= 0) residual = max(residual, residualOf(asked, next, push, before));
+}
+
+void endBatch()
+{
+    uint bits = floatBitsToUint(residual);
+    bool isLarger = batch >= 0 && bits > batches[batch].residual;
+    while (isLarger) {  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
+        atomicMax(batches[batch].residual, bits);
+        if (residual > tolerance && batch + 1 < batches.length()) batches[batch + 1].groupsX = batches[0].groupsX;
+        isLarger = false;
+    }
+}
+#else
+void addResidual(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+}
+
+void endBatch()
+{
+}
+#endif
 
 // Returns the first part of a contact's impulse after the iteration.
 vec4 solveEntry(int slot, int e, Constraint asked)
 {
     int row = ownRow(slot);
     if (inTextures) return impulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    vec4 push = impulsesAt(row, e);
+    vec4 before = earlierImpulsesAt(row, e);
+    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);  // these are the next from now on
     return next;
 }
 
-// Returns a collider's impulse after the iteration: a body of infinite mass, which does not ask whether it slides.
+// Returns a collider's impulse after the iteration.
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
     if (ownCount <= 0.0 || bouncesNext(near)) return vec4(0.0);
-    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
-    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius),
-                                  near.friction);
+    Constraint asked = constrainCollider(near);
     ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
-    return vec4(next.impulse, next.multiplier);
+    vec4 impulse = vec4(next.impulse, next.multiplier);
+    addResidual(asked, impulse, push, before);
+    return impulse;
 }
 
 void main()
@@ -104,11 +128,13 @@ void main()
         }
         putAllNextColliderImpulses(slot, next);
     }
-    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
-    putNextTotals(slot, 1, vec4(shift, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(slot, next);
+    putAllEarlierTotals(slot, next);  // with buffers these are the next from now on
     vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
     putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
     further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
     putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    endBatch();
 }
 #endif

@@ -20,6 +20,21 @@ int ownLaneOfGroup()
 
 #ifdef VELOCITIES
 const bool applies = false;
+#ifndef TEXTURES
+#include "contact/response/batches.glsl"
+
+uniform int batch;  // of the iteration that comes
+
+bool isNeeded()
+{
+    return batches[batch].groupsX > 0u;
+}
+#else
+bool isNeeded()
+{
+    return true;
+}
+#endif
 #include "contact/response/changes.glsl"
 #pragma writes velocities
 
@@ -41,6 +56,11 @@ void spread(int molecule, int own)
     }
 }
 #else
+bool isNeeded()
+{
+    return true;
+}
+
 #include "contact/response/body.glsl"
 #pragma reads counts contactSums
 #pragma writes effectiveCounts
@@ -111,7 +131,7 @@ void main()
     int lane = ownLaneOfGroup();
     int molecule = oneForMolecule ? lane : lane / SPHERES;
     int own = oneForMolecule ? 0 : lane - molecule * SPHERES;
-    bool isLeft = !rests(slotOf(firstSphere + molecule * SPHERES + own));
+    bool isLeft = isNeeded() && !rests(slotOf(firstSphere + molecule * SPHERES + own));
     while (isLeft) {  // a loop, which a CPU rasteriser leaves where no lane stays (contact/search/find.pass.glsl)
         spread(molecule, own);
         isLeft = false;

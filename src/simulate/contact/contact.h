@@ -37,6 +37,7 @@ class Contact : public ContactResult {
     void bindLoads(const gpu::Program& program, size_t group, int firstMolecule = 0) const;
 
     uint32_t dropped() const override;
+    ContactConvergence convergence() const override { return solver_.convergence(); }
     int listLength() const override { return data_.listLength; }
     std::vector<std::pair<int, int>> found() const override;
     ContactMemory memory() const override;

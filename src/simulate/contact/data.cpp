@@ -181,7 +181,7 @@ void ContactData::runResponding(const Program& program) {
     if (textures)
         runAll(program);
     else
-        arrays.runIndirect(program, "respondingGroups", 0);
+        arrays.runIndirect(program, "batches", 0);
 }
 
 void ContactData::setColliders(const Program& program, const ContactGroup& group, const Frame& frame) const {

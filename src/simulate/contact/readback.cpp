@@ -135,6 +135,24 @@ uint32_t droppedContacts(const ContactData& data) {
     return std::accumulate(dropped.begin(), dropped.begin() + ptrdiff_t(count), 0u);
 }
 
+ContactConvergence convergenceOf(const ContactData& data) {
+    const int iterations = data.contact->settings.iterations;
+    const auto batches = read<glm::uvec4>(data, "batches", Traffic::Kind::control);
+    if (batches[0].x == 0) return {0, 0.0f};
+    if (iterations == 1) return {1, {}};
+    size_t last = 0;
+    while (int(last) + 1 < iterations / 2 && batches[last + 1].x > 0)
+        ++last;
+    return {2 * (int(last) + 1) + iterations % 2, std::bit_cast<float>(batches[last].w)};
+}
+
+float largestResidual(const ContactData& data) {
+    uint32_t most = 0;
+    for (const uint32_t bits : read<uint32_t>(data, "residuals", Traffic::Kind::control))
+        most = std::max(most, bits);
+    return std::bit_cast<float>(most);
+}
+
 std::vector<std::pair<int, int>> foundPairs(const ContactData& data) {
     std::vector<uint32_t> spheres;
     if (data.textures) {

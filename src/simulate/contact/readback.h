@@ -7,11 +7,16 @@
 
 #include "simulate/contact/data.h"
 #include "simulate/contact/memory.h"
+#include "simulate/execution_path.h"
 
 namespace shoal {
 
 // Contacts that were left out, of all steps so far.
 uint32_t droppedContacts(const ContactData& data);
+// With buffers, how the iterations of the last step ended.
+ContactConvergence convergenceOf(const ContactData& data);
+// In fragments, the largest residual that the last batch of iterations has left.
+float largestResidual(const ContactData& data);
 // Each pair of touching spheres once, ascending.
 std::vector<std::pair<int, int>> foundPairs(const ContactData& data);
 // Empty: nothing is remembered.

@@ -1,12 +1,18 @@
 #include "simulate/contact/solver.h"
 
+#include <algorithm>
 #include <optional>
+
+#include "core/contract.h"
+#include "simulate/contact/readback.h"
 
 namespace shoal {
 
 using gpu::Program;
 
 ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
+    EXPECTS(data.textures ||
+            data.arrays.buffer("batches").bytes() == batchBytes * ContactSettings::mostIterations / 2);
     if (data.remembers) {
         prepare_ = data.stage("contact/response/prepare");
         solve_ = data.stage("contact/response/solve");
@@ -18,6 +24,7 @@ ContactSolver::ContactSolver(ContactData& data) : data_(&data) {
             prepareEntries_ = data.stage("contact/response/prepare", {"ENTRIES"}, "prepare_entries");
             constrain_ = data.stage("contact/response/solve", {"FIRST", "ENTRIES"}, "constrain");
             solveEntries_ = data.stage("contact/response/solve", {"ENTRIES"}, "solve_entries");
+            residual_ = data.stage("contact/response/residual");
         } else {
             solveFirst_ = data.stage("contact/response/solve", {"FIRST"}, "solve_first");
         }
@@ -89,7 +96,8 @@ void ContactSolver::strike(const ContactStep& times) {
         else
             data_->arrays.runIndirect(program, "impactGroups", 0);
     };
-    for (int round = 1; round <= data_->contact->settings.iterations; ++round) {
+    const int rounds = std::min(data_->contact->settings.iterations, ContactPlan::mostRounds);
+    for (int round = 1; round <= rounds; ++round) {
         run(round == 1 ? chooseFirst_ : choose_, round);
         run(strike_, round);
         if (!data_->textures) continue;
@@ -121,42 +129,74 @@ void ContactSolver::countEffective() {
 }
 
 // Where one sphere's contacts move others.
-void ContactSolver::findVelocities(float momentum) {
+void ContactSolver::findVelocities(const Iteration& iteration) {
     forBodies([&](size_t g, size_t part, const ContactData::Spheres& spheres) {
         const ContactGroup& group = data_->contact->groups[g];
         const Program& program = data_->withPart(groups_[g].velocities, group, part);
-        program.set("momentum", momentum);
+        program.set("momentum", iteration.momentum);
         program.set("firstSphere", spheres.first);
+        if (!data_->textures) program.set("batch", iteration.batch);
         runBodies(program, group, spheres);
     });
 }
 
-void ContactSolver::solve(const ContactStep& times, int iteration) {
+ContactSolver::Iteration ContactSolver::iteration(int number) const {
     const int iterations = data_->contact->settings.iterations;
-    const float momentum = ContactPlan::momentum(iteration, iterations);
-    if (data_->spreads) findVelocities(momentum);
+    const int batch = std::max(0, (number - iterations % 2) / 2);
+    const bool isLast = number > 0 && (iterations - number) % 2 == 1;
+    return {number, batch, isLast, ContactPlan::momentum(number, iterations),
+            ContactPlan::momentum(number + 1, iterations)};
+}
+
+void ContactSolver::solve(const ContactStep& times, const Iteration& iteration) {
+    if (data_->spreads) findVelocities(iteration);
     const auto use = [&](const Program& program) -> const Program& {
         data_->withResponse(program, times);
-        if (&program != &solveFirst_) program.set("momentum", momentum);
+        if (&program != &solveFirst_) program.set("momentum", iteration.momentum);
         return program;
     };
     if (data_->textures) {
         runEntries(use(solveEntries_));
         data_->arrays.rotate({"impulses", "earlierImpulses", "nextImpulses"});
-    }
-    const bool isFirst = iteration == 0 && !data_->textures;
-    const Program& program = use(isFirst ? solveFirst_ : solve_);
-    if (!data_->textures && !data_->spreads)
-        program.set("nextMomentum", ContactPlan::momentum(iteration + 1, iterations));
-    data_->runResponding(program);
-    data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
-    if (data_->textures) {
+        data_->runAll(use(solve_));
+        data_->arrays.rotate({"totals", "earlierTotals", "nextTotals"});
         if (data_->colliders)
             data_->arrays.rotate({"colliderImpulses", "earlierColliderImpulses", "nextColliderImpulses"});
+        if (iteration.endsBatch) data_->runAll(use(residual_));
         return;
     }
+    const bool isFirst = iteration.number == 0;
+    const Program& program = use(isFirst ? solveFirst_ : solve_);
+    if (!data_->spreads) program.set("nextMomentum", iteration.nextMomentum);
+    if (!isFirst) {
+        program.set("batch", iteration.endsBatch ? iteration.batch : -1);
+        program.set("tolerance", float(data_->contact->settings.tolerance));
+    }
+    data_->arrays.runIndirect(program, "batches", batchBytes * size_t(iteration.batch));
+    data_->arrays.swap("totals", "earlierTotals");
     data_->arrays.swap("impulses", "earlierImpulses");
     if (!data_->spreads) data_->arrays.swap("velocities", "nextVelocities");
+}
+
+// With buffers the GPU ends them: what comes then has no workgroups.
+void ContactSolver::iterate(const ContactStep& times) {
+    const ContactSettings& settings = data_->contact->settings;
+    for (int i = 0; i < settings.iterations; ++i) {
+        const Iteration next = iteration(i);
+        solve(times, next);
+        if (!data_->textures) continue;
+        inFragments_ = {i + 1, {}};
+        if (!next.endsBatch) continue;
+        inFragments_.residual = largestResidual(*data_);
+        if (*inFragments_.residual <= float(settings.tolerance)) return;
+    }
+}
+
+ContactConvergence ContactSolver::convergence() const {
+    if (!data_->remembers) return {};
+    ContactConvergence out = data_->textures ? inFragments_ : convergenceOf(*data_);
+    if (data_->plan->gravity == glm::dvec3(0)) out.residual.reset();
+    return out;
 }
 
 void ContactSolver::store(const ContactStep& times) {
@@ -206,8 +246,7 @@ void ContactSolver::run(const ContactStep& times) {
     if (data_->remembers) {
         strike(times);
         prepare(times);
-        for (int i = 0; i < data_->contact->settings.iterations; ++i)
-            solve(times, i);
+        iterate(times);
         store(times);
     } else {
         data_->runResponding(data_->withResponse(nearest_, times));

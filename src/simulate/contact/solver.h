@@ -5,6 +5,7 @@
 //   effective_sum   by how many contacts each step is divided, where contacts of several spheres act together
 //   constrain       what the iterations ask of a contact (with buffers, in the first of them)
 //   solve           one iteration, after velocities where one sphere's contacts move others
+//   residual        what a batch of iterations leaves (with buffers, in solve)
 //   store           what contacts remember for the next step (of all these, UberFlow's response has nearest)
 //   apply           into the state (in fragments gains, and then a pass of the path)
 //
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "simulate/contact/data.h"
+#include "simulate/execution_path.h"
 
 namespace shoal {
 
@@ -21,8 +23,18 @@ class ContactSolver {
   public:
     explicit ContactSolver(ContactData& data);
     void run(const ContactStep& times);
+    // Of the last step.
+    ContactConvergence convergence() const;
 
   private:
+    // A batch of iterations: shaders/contact/response/batches.glsl.
+    struct Iteration {
+        int number, batch;
+        bool endsBatch;
+        float momentum, nextMomentum;
+    };
+    static constexpr size_t batchBytes = 4 * sizeof(uint32_t);
+
     struct Group {
         gpu::Program effectiveSum, velocities, apply;
     };
@@ -40,8 +52,10 @@ class ContactSolver {
     void strike(const ContactStep& times);
     void prepare(const ContactStep& times);
     void countEffective();
-    void solve(const ContactStep& times, int iteration);
-    void findVelocities(float momentum);
+    Iteration iteration(int number) const;
+    void iterate(const ContactStep& times);
+    void solve(const ContactStep& times, const Iteration& iteration);
+    void findVelocities(const Iteration& iteration);
     void store(const ContactStep& times);
     void apply(const ContactStep& times);
     void applyGains(const ContactStep& times);
@@ -49,7 +63,8 @@ class ContactSolver {
     ContactData* data_;
     std::vector<Group> groups_;
     gpu::Program nearest_, chooseFirst_, choose_, strike_, prepareEntries_, prepare_, constrain_,
-        solveEntries_, solveFirst_, solve_, store_;
+        solveEntries_, solveFirst_, solve_, residual_, store_;
+    ContactConvergence inFragments_;
 };
 
 }  // namespace shoal

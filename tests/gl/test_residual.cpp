@@ -1,0 +1,116 @@
+// Iterations of contact end where the residual is small, and then a stack stands, whatever its masses.
+#include <algorithm>
+
+#include "gl/marbles.h"
+#include "support/catch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+using glm::dvec3;
+
+namespace {
+
+constexpr double radius = 0.05;
+
+// Marbles on one another on a floor, every other `ratio` times as heavy as those between.
+Scene tower(int count, double ratio) {
+    Scene scene;
+    for (int i = 0; i < count; ++i) {
+        Scene part = marbles({{0, (2 * i + 1) * radius, 0}}, radius, i % 2 ? ratio : 1);
+        part.groups[0].name = concat(i);
+        scene.groups.push_back(part.groups[0]);
+    }
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.substeps = 4;
+    scene.colliders.push_back({.name = "floor", .shape = PlaneCollider(), .restitution = 0, .friction = 0.5});
+    return scene;
+}
+
+Simulation started(const Scene& scene, Path path = pathsHere().front()) {
+    return startedWith(scene, std::vector<dvec3>(scene.groups.size(), dvec3(0)), {0, 0.5}, path);
+}
+
+struct Rest {
+    double fastest = 0, deepest = 0;  // m/s; parts of the sum of the radii
+};
+
+Rest restOf(const Simulation& simulation) {
+    Rest out;
+    const std::vector<reference::Sphere> spheres = statesOf(simulation);
+    for (size_t i = 0; i < spheres.size(); ++i) {
+        out.fastest = std::max(out.fastest, glm::length(spheres[i].velocity));
+        if (i == 0) continue;
+        const double distance = glm::distance(spheres[i].position, spheres[i - 1].position);
+        out.deepest = std::max(out.deepest, 1 - distance / (2 * radius));
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("iterations end where the residual is small, and not before", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const int most = GENERATE(1, 9, 16);
+    Scene scene = tower(4, 1);
+    scene.contact.iterations = most;
+    Simulation simulation = started(scene, path);
+    CAPTURE(name(path), most);
+    int ended = 0, reached = 0;
+    for (int i = 0; i < 120; ++i) {
+        simulation.frame();
+        const ContactConvergence after = simulation.contact()->convergence();
+        CAPTURE(i, after.iterations);
+        CHECK(after.iterations <= most);
+        REQUIRE(after.residual.has_value() == (most > 1 || after.iterations == 0));
+        if (most == 1) continue;
+        if (after.iterations == most) {
+            ++reached;
+            continue;
+        }
+        ++ended;
+        CHECK(*after.residual <= scene.contact.tolerance);
+        CHECK((most - after.iterations) % 2 == 0);
+    }
+    if (most == 1) return;
+    CHECK(reached > 0);  // while a load is taken up
+    CHECK(ended > 60);
+    CHECK(simulation.contact()->convergence().iterations == 2 + most % 2);
+}
+
+TEST_CASE("a smaller tolerance takes more iterations", "[molecule contact]") {
+    Scene scene = tower(6, 10);
+    scene.contact.iterations = 64;
+    int taken[2] = {};
+    for (const bool tight : {false, true}) {
+        scene.contact.tolerance = tight ? 1e-5 : 1e-2;
+        Simulation simulation = started(scene);
+        for (int i = 0; i < 60; ++i) {
+            simulation.frame();
+            taken[tight] += simulation.contact()->convergence().iterations;
+        }
+    }
+    CHECK(taken[1] > 2 * taken[0]);
+}
+
+TEST_CASE("a tower of light and heavy marbles rests", "[molecule contact][long]") {
+    struct Tower {
+        int count;
+        double ratio;
+        int iterations;
+    };
+    const Tower each = GENERATE(Tower{20, 1, ContactSettings().iterations}, Tower{2, 100, ContactSettings().iterations},
+                                Tower{2, 1000, 100}, Tower{6, 1000, 256}, Tower{20, 30, 256});
+    if (each.iterations > 8 && pathsHere().front() != Path::fused) return;  // half a minute
+    Scene scene = tower(each.count, each.ratio);
+    scene.contact.iterations = each.iterations;
+    Simulation simulation = started(scene);
+    double fastest = 0;
+    for (int i = 0; i < 300; ++i) {
+        simulation.frame();
+        if (i >= 270) fastest = std::max(fastest, restOf(simulation).fastest);
+    }
+    CAPTURE(each.count, each.ratio, each.iterations);
+    CHECK(fastest < 1e-3);
+    CHECK(restOf(simulation).deepest < 0.02);
+    if (each.ratio < 1000) CHECK(simulation.contact()->convergence().iterations <= 16);
+}
