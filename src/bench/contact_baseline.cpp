@@ -182,6 +182,11 @@ struct ContactBaseline::Data {
         if (impacts.hasHit(slot, other)) out.bounces = known ? known->bounces + 1 : 1;
         const bool deep = out.lacks > 0.25f * reach;
         if (known && (known->sticks || deep)) out.anchor = known->anchor;
+        vec3 slip = d - out.anchor;
+        slip -= out.normal * glm::dot(slip, out.normal);
+        const float far = glm::length(slip);
+        if (!deep && far > 0.005f * reach)
+            out.anchor += slip * (1 - 0.005f * reach / far);  // what is further has slid
         if (const float length = glm::length(out.anchor); deep && length > 1e-6f * reach) {
             out.normal = out.anchor / length;
             out.lacks = reach - glm::dot(d, out.normal);

@@ -189,7 +189,7 @@ TEST_CASE("what rests wakes when what bears it is blown away", "[rest]") {
     upper.count = 1;
     scene.groups[0].drag = {2, 2};
     scene.groups.push_back(upper);
-    scene.fields.emplace_back().shape = OscillatingField{.velocity = {0, 0, 2}, .frequency = 0.05};
+    scene.fields.emplace_back().shape = OscillatingField{.velocity = {0, 0, 3}, .frequency = 0.05};
     Simulation simulation = fusedOf(scene);
     run(simulation, 40);
     CHECK(resting(simulation) == 4);

@@ -213,6 +213,10 @@ class Response {
         const ContactMemory::Entry* entry = known(m);
         const bool deep = m.depth > 0.25 * m.reach;
         m.anchor = entry && (entry->sticks || deep) ? entry->anchor : m.between;
+        dvec3 slip = m.between - m.anchor;
+        slip -= m.normal * glm::dot(slip, m.normal);
+        const double far = glm::length(slip);
+        if (!deep && far > 0.005 * m.reach) m.anchor += slip * (1 - 0.005 * m.reach / far);  // slid
         if (deep && glm::length(m.anchor) > 0) {
             m.normal = glm::normalize(m.anchor);
             m.depth = m.reach - glm::dot(m.between, m.normal);

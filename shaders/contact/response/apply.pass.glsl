@@ -12,11 +12,17 @@ const bool applies = true;
 uniform int partSpheres;
 uniform float substepTime;  // s
 
+// Whether it rested when the step began: its step was in vain, and what it has gained counts for nothing.
+bool hasRested(int molecule)
+{
+    return RESTS && rested(slotOf(moleculeSphere(molecule)));
+}
+
 void add(int molecule, int vertex, Total change)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
     vec3 place = stateVector(first, 0, vertex) + change.shift;
-    vec3 v = stateVector(first, POSITION_ELEMENTS, vertex) + change.impulse;
+    vec3 v = (hasRested(molecule) ? vec3(0.0) : stateVector(first, POSITION_ELEMENTS, vertex)) + change.impulse;
     setStateVector(first, 0, vertex, place);
     setMotion(first, vertex, v, length(v) < restSpeed, v * substepTime);
     int sphere = moleculeSphere(molecule) + vertex;
@@ -32,7 +38,8 @@ void main()
     int vertex = lane - molecule * VERTICES;
     if (rests(slotOf(moleculeSphere(molecule)))) return;
     Total change = changeOf(molecule, vertex);
-    if (change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0)) add(molecule, vertex, change);
+    bool any = change.impulse != vec3(0.0) || change.shift != vec3(0.0) || change.load != vec3(0.0);
+    if (any || hasRested(molecule)) add(molecule, vertex, change);
 }
 #else
 void main()

@@ -36,6 +36,14 @@ bool isLoaded(ContactImpulse begun)
     return begun.kind == PERSISTENT && begun.start > 1e-19;
 }
 
+// The same contact as the other sphere has it.
+ContactImpulse mirrored(ContactImpulse c)
+{
+    c.impulse = -c.impulse;
+    c.anchor = -c.anchor;
+    return c;
+}
+
 ContactImpulse noImpulse(int kind)
 {
     return ContactImpulse(vec3(0.0), 0.0, true, vec3(0.0), 0.0, kind);

@@ -31,6 +31,14 @@ int partnerAt(int memory, int e)
     return int(inTextures ? oldListsAt(memory, e) : partnersAt(memory, e));
 }
 
+// Returns where a memory has the contact with the sphere of another, or -1.
+int placeOf(int memory, int partner)
+{
+    int place = -1;
+    for (int e = rememberedBy(memory) - 1; e >= 0; --e) place = partnerAt(memory, e) == partner ? e : place;
+    return place;
+}
+
 // With buffers, the slot of that sphere.
 int partnerSlot(int sphere, int e)
 {

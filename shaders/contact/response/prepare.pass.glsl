@@ -36,6 +36,16 @@ bool waits(Pair pair, ContactImpulse old, bool struck)
     return pair.contact.depth <= 0.0 || speed * pair.material.x > restSpeed;
 }
 
+// Returns an anchor that is dragged along by what has slipped further than `restingOverlap`: if it were drawn back all that way
+// (contact/response/store.pass.glsl), what has stopped would not come to rest.
+vec3 dragged(vec3 anchor, Pair pair, float reach)
+{
+    vec3 n = pair.contact.normal;
+    vec3 slip = pair.apart - anchor;
+    slip -= n * dot(slip, n);
+    return anchor + slip * max(0.0, 1.0 - restingOverlap * reach / max(length(slip), 1e-30));
+}
+
 // Returns a contact's impulse as the step begins with it. `pair`: as pairAs() has it.
 ContactImpulse prepare(int slot, int e, out Pair pair)
 {
@@ -57,10 +67,13 @@ ContactImpulse prepare(int slot, int e, out Pair pair)
     }
     if (isOld) {
         known.impulse = remembered(old, pair.sphere).impulse;
-        if ((old.kind == PERSISTENT && old.sticks) || isDeep(contact, reach)) known.anchor = old.anchor;
+        if (isDeep(contact, reach))
+            known.anchor = old.anchor;
+        else if (old.kind == PERSISTENT && old.sticks)
+            known.anchor = dragged(old.anchor, pair, reach);
     }
     leaveAsCome(pair, known.anchor);
-    if (isOld) known.multiplier = carriedOver(old.multiplier, pair.contact.depth);
+    if (isOld && !hasWoken(slot) && !hasWoken(other)) known.multiplier = carriedOver(old.multiplier, pair.contact.depth);
     known.impulse = withinFriction(known.impulse, pair.contact.normal, pair.material.y);
     known.start = length(known.impulse);
     return known;

@@ -21,18 +21,16 @@ void setState(int sphere, float who)
     for (int k = 0; k < SPHERES; ++k) putLoads(sphere + k, vec4(loadsAt(sphere + k).xyz, who));
 }
 
-// Whether contact has woken a molecule at rest in this step.
-bool isWoken(int sphere)
+// Whether what contacts push on a molecule at rest has changed in this step.
+bool isLoaded(int sphere)
 {
-    bool woken = false;
-    for (int k = 0; k < SPHERES; ++k) {
-        uint mark = marksAt(slotOf(sphere + k));
-        woken = woken || marksWoken(mark) || (mark & LOAD_CHANGED) != 0u;
-    }
-    return woken;
+    bool loaded = false;
+    for (int k = 0; k < SPHERES; ++k) loaded = loaded || (marksAt(slotOf(sphere + k)) & LOAD_CHANGED) != 0u;
+    return loaded;
 }
 
-// Keeps a molecule at rest, or wakes it.
+// Keeps a molecule at rest, or wakes it: with the velocity that an impact has given it, or with none, because no contact has answered
+// what it gains in a step in vain.
 void keepOrWake(int sphere, int first)
 {
     bool isFirst = loadsAt(sphere).w == COME_TO_REST;
@@ -43,11 +41,12 @@ void keepOrWake(int sphere, int first)
         if (isFirst) putRestLoads(sphere + v, vec4(gained, load.w));
         if (!isFirst) change = max(change, distance(gained, load.xyz));
     }
-    bool woken = isWoken(sphere) || (probes && change > wakeSpeed);
+    bool struck = marksWoken(marksAt(slotOf(sphere)));
+    bool woken = struck || isLoaded(sphere) || (probes && change > wakeSpeed);
     for (int v = 0; v < VERTICES; ++v) {
         vec3 place = stateVector(first, 0, v);
-        vec3 gained = stateVector(first, POSITION_ELEMENTS, v);
-        setMotion(first, v, woken ? gained : vec3(0.0), !woken, vec3(0.0));
+        vec3 velocity = struck ? stateVector(first, POSITION_ELEMENTS, v) : vec3(0.0);
+        setMotion(first, v, velocity, !woken, vec3(0.0));
         if (woken) putRestPoses(sphere + v, vec4(place, 0.0));
     }
     setState(sphere, woken ? AWAKE : RESTING);

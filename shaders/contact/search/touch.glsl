@@ -2,6 +2,7 @@
 #include "state/lanes.glsl"
 #ifdef MARKS
 #include "contact/rest/marks.glsl"
+#include "contact/response/kept.glsl"
 #endif
 #include "contact/grid/colliders.glsl"
 #include "contact/response/memory.glsl"
@@ -80,7 +81,7 @@ uint countFound(int slot)
 {
     int sphere = sphereOf(slot);
     uint counted = uint(found) | (isHeldByCollider(sphere) ? HELD : 0u);
-    bool responds = counted != 0u || (REMEMBERS && remembersAt(memoryOf(sphere)));
+    bool responds = counted != 0u || (RESTS && rested(slot)) || (REMEMBERS && remembersAt(memoryOf(sphere)));
     return counted | (responds ? RESPONDS : 0u);
 }
 
@@ -140,12 +141,13 @@ void finish(int slot)
 }
 #endif
 
-// An awake sphere marks the resting ones that it touches.
+// An awake sphere marks the resting ones that it touches. A contact that is closed has no impact, however the step pushes it.
 void touchResting(int slot, vec3 d, float reach)
 {
 #ifdef MARKS
     if (rested(searching) || !rested(slot)) return;
     bool struck = haveMet(d, reach, slot);
+    while (struck && isClosed(contactIn(memoryOf(sphereOf(searching)), memoryOf(sphereOf(slot))), false)) struck = false;  // rare
     mark(slot, struck ? TOUCHED | STRUCK : TOUCHED);
     if (struck) struckX = uint(count + 63) / 64u;
 #endif
