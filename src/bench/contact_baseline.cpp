@@ -280,7 +280,8 @@ struct ContactBaseline::Data {
                     const float speed = std::max(std::abs(pushed) / contact.stepAlong,
                                                  glm::length(change - n * pushed) / contact.stepAcross);
                     const float move = std::abs(contact.apart - apart) / contact.stepAlong;
-                    piece.residual = std::max({piece.residual, speed / std::max(step.restSpeed, 1e-20f), 2 * move / reach});
+                    piece.residual = std::max(
+                        {piece.residual, speed / std::max(step.restSpeed, 1e-20f), 2 * move / reach});
                 }
                 total += contact.impulse;
                 shift += n * contact.apart;

@@ -141,8 +141,8 @@ static void tellContact(std::ostringstream& out, const Plan& plan, Path path) {
     if (!contact.any()) return;
     out << "contact  " << contact.spheres << " spheres, found by the " << name(contact.settings.search)
         << " search in cells of " << contact.cell << " m, " << contact.steps
-        << (contact.steps == 1 ? " time" : " times") << " a frame, in at most "
-        << contact.settings.iterations << " iterations\n         up to " << contact.safeSpeed(1 / plan.frameRate)
+        << (contact.steps == 1 ? " time" : " times") << " a frame, in at most " << contact.settings.iterations
+        << " iterations\n         up to " << contact.safeSpeed(1 / plan.frameRate)
         << " m/s relative to one another none passes through another between two contact steps\n";
     if (contact.settings.rest)
         out << "         what moves more slowly than " << *contact.settings.rest << " m/s "
@@ -251,12 +251,11 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
     if (!plan.grids.empty()) append(out, key("grids", plan.grids));
     if (!plan.contact.any()) return out;
     const ContactSettings& settings = plan.contact.settings;
-    JsonValue contact =
-        object(key("spheres", plan.contact.spheres), key("cell", plan.contact.cell),
-               key("steps", plan.contact.steps), key("search", name(settings.search)),
-               key("response", name(settings.response)), key("iterations", settings.iterations),
-               key("tolerance", settings.tolerance),
-               key("safeSpeed", plan.contact.safeSpeed(1 / plan.frameRate)));
+    JsonValue contact = object(key("spheres", plan.contact.spheres), key("cell", plan.contact.cell),
+                               key("steps", plan.contact.steps), key("search", name(settings.search)),
+                               key("response", name(settings.response)),
+                               key("iterations", settings.iterations), key("tolerance", settings.tolerance),
+                               key("safeSpeed", plan.contact.safeSpeed(1 / plan.frameRate)));
     if (settings.rest) append(contact, key("rest", *settings.rest));
     return append(out, key("contact", contact));
 }

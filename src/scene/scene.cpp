@@ -62,13 +62,14 @@ const Description& describe(const ContactSettings*) {
             .key("iterations", &S::iterations,
                  {"", "The most iterations of the response where several touch at once.",
                   Range::between(1, S::mostIterations)})
-            .key("tolerance", &S::tolerance,
-                 {"",
-                  "The residual at which the iterations end: by how much the relative velocity of two spheres "
-                  "that touch may differ from what is asked, as a part of what gravity adds in two contact "
-                  "steps, and how far they are moved apart, as a part of the radius. Floats give no less "
-                  "than 1e-5; without gravity all iterations run.",
-                  Range::between(1e-5, 1)})
+            .key(
+                "tolerance", &S::tolerance,
+                {"",
+                 "The residual at which the iterations end: by how much the relative velocity of two spheres "
+                 "that touch may differ from what is asked, as a part of what gravity adds in two contact "
+                 "steps, and how far they are moved apart, as a part of the radius. Floats give no less "
+                 "than 1e-5; without gravity all iterations run.",
+                 Range::between(1e-5, 1)})
             .word("search", &S::search, searchWords,
                   {"",
                    "How spheres that may touch are found; `single` and `staggered` are UberFlow's, which "

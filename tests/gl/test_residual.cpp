@@ -98,8 +98,9 @@ TEST_CASE("a tower of light and heavy marbles rests", "[molecule contact][long]"
         double ratio;
         int iterations;
     };
-    const Tower each = GENERATE(Tower{20, 1, ContactSettings().iterations}, Tower{2, 100, ContactSettings().iterations},
-                                Tower{2, 1000, 100}, Tower{6, 1000, 256}, Tower{20, 30, 256});
+    const Tower each =
+        GENERATE(Tower{20, 1, ContactSettings().iterations}, Tower{2, 100, ContactSettings().iterations},
+                 Tower{2, 1000, 100}, Tower{6, 1000, 256}, Tower{20, 30, 256});
     if (each.iterations > 8 && pathsHere().front() != Path::fused) return;  // half a minute
     Scene scene = tower(each.count, each.ratio);
     scene.contact.iterations = each.iterations;

@@ -32,6 +32,16 @@ vec4 earlierImpulsesAt(int i, int e)
 {
     return earlierImpulsesBuffer[(e) * listStride + (i)];
 }
+layout(std430) buffer EarlierTotals { vec4 earlierTotalsBuffer[]; };
+#define putEarlierTotals(i, k, value) earlierTotalsBuffer[2 * (i) + (k)] = (value)
+vec4 earlierTotalsAt(int i, int k)
+{
+    return earlierTotalsBuffer[2 * (i) + (k)];
+}
+void putAllEarlierTotals(int i, vec4 values[2])
+{
+    for (int k = 0; k < 2; ++k) putEarlierTotals(i, k, values[k]);
+}
 uniform float momentum;
 uniform int firstNumber;
 uniform int numbers;
@@ -248,6 +258,12 @@ ContactImpulse impulseFrom(vec4 first, vec4 second)
 bool isLoaded(ContactImpulse begun)
 {
     return begun.kind == PERSISTENT && begun.start > 1e-19;
+}
+ContactImpulse mirrored(ContactImpulse c)
+{
+    c.impulse = -c.impulse;
+    c.anchor = -c.anchor;
+    return c;
 }
 ContactImpulse noImpulse(int kind)
 {
@@ -562,11 +578,6 @@ vec4 totalsAt(int i, int k)
 {
     return texelFetch(totals, 2 * (i) + (k));
 }
-uniform samplerBuffer earlierTotals;
-vec4 earlierTotalsAt(int i, int k)
-{
-    return texelFetch(earlierTotals, 2 * (i) + (k));
-}
 uniform samplerBuffer velocities;
 vec4 velocitiesAt(int i, int k)
 {
@@ -604,6 +615,22 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     return Constraint(contact.normal, partingSpeed(contact.depth, reach, isLoaded(begun)), weights, lacking(contact.depth, reach),
                       pair.meets ? pair.material.y : -1.0);
 }
+uniform samplerBuffer normals;
+vec4 normalsAt(int i, int e)
+{
+    return texelFetch(normals, (e) * listStride + (i));
+}
+uniform samplerBuffer weights;
+vec4 weightsAt(int i, int e)
+{
+    return texelFetch(weights, (e) * listStride + (i));
+}
+Constraint constraintOf(int slot, int e)
+{
+    vec4 normal = normalsAt(ownRow(slot), e);
+    vec4 weights = weightsAt(ownRow(slot), e);
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
+}
 struct Moved {
     vec3 velocity;
     vec3 move;
@@ -630,6 +657,19 @@ void loadOwn(int slot)
     ownCount = effectiveCountOf(slot, own);
     ownMoved = movedAt(slot);
 }
+Constraint constrainCollider(NearCollider near)
+{
+    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
+    return Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius), near.friction);
+}
+float residualOf(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+    vec3 change = next.xyz - ahead(push.xyz, before.xyz);
+    float along = dot(change, asked.normal);
+    float speed = max(abs(along) * asked.weights.x, length(change - along * asked.normal) * asked.weights.y);
+    float move = (abs(next.w) - ahead(vec3(abs(push.w)), vec3(abs(before.w))).x) * asked.weights.x;
+    return max(speed / max(restSpeed, 1e-20), abs(move) / own.radius);
+}
 ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
 {
     vec3 n = asked.normal;
@@ -649,35 +689,15 @@ vec4 anchorsAt(int i, int e)
 {
     return texelFetch(anchors, (e) * listStride + (i));
 }
-uniform samplerBuffer normals;
-vec4 normalsAt(int i, int e)
-{
-    return texelFetch(normals, (e) * listStride + (i));
-}
-uniform samplerBuffer weights;
-vec4 weightsAt(int i, int e)
-{
-    return texelFetch(weights, (e) * listStride + (i));
-}
-Constraint constraintOf(int slot, int e)
-{
-    vec4 normal = normalsAt(ownRow(slot), e);
-    vec4 weights = weightsAt(ownRow(slot), e);
-    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
-}
 uniform samplerBuffer warmStart;
 vec4 warmStartAt(int i)
 {
     return texelFetch(warmStart, i);
 }
+#define putNextTotals(i, k, value)
+#define putAllNextTotals(i, values)
 #define putNextColliderImpulses(i, k, value)
 #define putAllNextColliderImpulses(i, values)
-layout(std430) writeonly buffer NextTotals { vec4 nextTotalsBuffer[]; };
-#define putNextTotals(i, k, value) nextTotalsBuffer[2 * (i) + (k)] = (value)
-void putAllNextTotals(int i, vec4 values[2])
-{
-    for (int k = 0; k < 2; ++k) putNextTotals(i, k, values[k]);
-}
 layout(std430) writeonly buffer NextVelocities { vec4 nextVelocitiesBuffer[]; };
 #define putNextVelocities(i, k, value) nextVelocitiesBuffer[2 * (i) + (k)] = (value)
 void putAllNextVelocities(int i, vec4 values[2])
@@ -685,22 +705,51 @@ void putAllNextVelocities(int i, vec4 values[2])
     for (int k = 0; k < 2; ++k) putNextVelocities(i, k, values[k]);
 }
 uniform float nextMomentum;
+struct Batch {
+    uint groupsX;
+    uint groupsY;
+    uint groupsZ;
+    uint residual;
+};
+layout(std430) buffer Batches {
+    Batch batches[];
+};
+uniform int batch;
+uniform float tolerance;
+float residual = 0.0;
+void addResidual(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+    if (batch >= 0) residual = max(residual, residualOf(asked, next, push, before));
+}
+void endBatch()
+{
+    uint bits = floatBitsToUint(residual);
+    bool isLarger = batch >= 0 && bits > batches[batch].residual;
+    while (isLarger) {
+        atomicMax(batches[batch].residual, bits);
+        if (residual > tolerance && batch + 1 < batches.length()) batches[batch + 1].groupsX = batches[0].groupsX;
+        isLarger = false;
+    }
+}
 vec4 solveEntry(int slot, int e, Constraint asked)
 {
     int row = ownRow(slot);
     if (inTextures) return impulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    vec4 push = impulsesAt(row, e);
+    vec4 before = earlierImpulsesAt(row, e);
+    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);
     return next;
 }
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
     if (ownCount <= 0.0 || bouncesNext(near)) return vec4(0.0);
-    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
-    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius),
-                                  near.friction);
+    Constraint asked = constrainCollider(near);
     ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
-    return vec4(next.impulse, next.multiplier);
+    vec4 impulse = vec4(next.impulse, next.multiplier);
+    addResidual(asked, impulse, push, before);
+    return impulse;
 }
 void main()
 {
@@ -732,10 +781,12 @@ void main()
         }
         putAllNextColliderImpulses(slot, next);
     }
-    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
-    putNextTotals(slot, 1, vec4(shift, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(slot, next);
+    putAllEarlierTotals(slot, next);
     vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
     putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
     further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
     putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    endBatch();
 }

@@ -43,6 +43,13 @@ vec4 earlierImpulsesAt(int i, int e)
 }
 #define putEarlierImpulses(i, e, value)
 #define putAllEarlierImpulses(i, values)
+uniform sampler2DArray earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, ivec3(texelOf(i), k), 0);
+}
+#define putEarlierTotals(i, k, value)
+#define putAllEarlierTotals(i, values)
 uniform float momentum;
 uniform int firstNumber;
 uniform int numbers;
@@ -258,6 +265,12 @@ ContactImpulse impulseFrom(vec4 first, vec4 second)
 bool isLoaded(ContactImpulse begun)
 {
     return begun.kind == PERSISTENT && begun.start > 1e-19;
+}
+ContactImpulse mirrored(ContactImpulse c)
+{
+    c.impulse = -c.impulse;
+    c.anchor = -c.anchor;
+    return c;
 }
 ContactImpulse noImpulse(int kind)
 {
@@ -573,11 +586,6 @@ vec4 totalsAt(int i, int k)
 {
     return texelFetch(totals, ivec3(texelOf(i), k), 0);
 }
-uniform sampler2DArray earlierTotals;
-vec4 earlierTotalsAt(int i, int k)
-{
-    return texelFetch(earlierTotals, ivec3(texelOf(i), k), 0);
-}
 struct Constraint {
     vec3 normal;
     float target;
@@ -610,6 +618,22 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     return Constraint(contact.normal, partingSpeed(contact.depth, reach, isLoaded(begun)), weights, lacking(contact.depth, reach),
                       pair.meets ? pair.material.y : -1.0);
 }
+uniform sampler2DArray normals;
+vec4 normalsAt(int i, int e)
+{
+    return texelFetch(normals, ivec3(texelOf(i), e), 0);
+}
+uniform sampler2DArray weights;
+vec4 weightsAt(int i, int e)
+{
+    return texelFetch(weights, ivec3(texelOf(i), e), 0);
+}
+Constraint constraintOf(int slot, int e)
+{
+    vec4 normal = normalsAt(ownRow(slot), e);
+    vec4 weights = weightsAt(ownRow(slot), e);
+    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
+}
 struct Moved {
     vec3 velocity;
     vec3 move;
@@ -636,6 +660,19 @@ void loadOwn(int slot)
     ownCount = effectiveCountOf(slot, own);
     ownMoved = movedAt(slot);
 }
+Constraint constrainCollider(NearCollider near)
+{
+    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
+    return Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius), near.friction);
+}
+float residualOf(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+    vec3 change = next.xyz - ahead(push.xyz, before.xyz);
+    float along = dot(change, asked.normal);
+    float speed = max(abs(along) * asked.weights.x, length(change - along * asked.normal) * asked.weights.y);
+    float move = (abs(next.w) - ahead(vec3(abs(push.w)), vec3(abs(before.w))).x) * asked.weights.x;
+    return max(speed / max(restSpeed, 1e-20), abs(move) / own.radius);
+}
 ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
 {
     vec3 n = asked.normal;
@@ -655,22 +692,6 @@ vec4 anchorsAt(int i, int e)
 {
     return texelFetch(anchors, ivec3(texelOf(i), e), 0);
 }
-uniform sampler2DArray normals;
-vec4 normalsAt(int i, int e)
-{
-    return texelFetch(normals, ivec3(texelOf(i), e), 0);
-}
-uniform sampler2DArray weights;
-vec4 weightsAt(int i, int e)
-{
-    return texelFetch(weights, ivec3(texelOf(i), e), 0);
-}
-Constraint constraintOf(int slot, int e)
-{
-    vec4 normal = normalsAt(ownRow(slot), e);
-    vec4 weights = weightsAt(ownRow(slot), e);
-    return Constraint(normal.xyz, normal.w, weights.xy, weights.z, weights.w);
-}
 uniform sampler2D warmStart;
 vec4 warmStartAt(int i)
 {
@@ -684,22 +705,31 @@ layout(location = 0) out vec4 newNextTotals[2];
 #define putNextTotals(i, k, value) newNextTotals[k] = (value)
 #define putAllNextTotals(i, values) newNextTotals = (values)
 uniform float nextMomentum;
+void addResidual(Constraint asked, vec4 next, vec4 push, vec4 before)
+{
+}
+void endBatch()
+{
+}
 vec4 solveEntry(int slot, int e, Constraint asked)
 {
     int row = ownRow(slot);
     if (inTextures) return impulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, impulsesAt(row, e), earlierImpulsesAt(row, e));
+    vec4 push = impulsesAt(row, e);
+    vec4 before = earlierImpulsesAt(row, e);
+    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);
     return next;
 }
 vec4 solveCollider(NearCollider near, vec4 push, vec4 before)
 {
     if (ownCount <= 0.0 || bouncesNext(near)) return vec4(0.0);
-    vec2 weights = stepWeights(weightsOf(own, ownBody, near.normal) * ownCount, ownCount);
-    Constraint asked = Constraint(near.normal, partingSpeed(-near.gap, own.radius, false), weights, lacking(-near.gap, own.radius),
-                                  near.friction);
+    Constraint asked = constrainCollider(near);
     ContactImpulse next = solved(asked, Moved(near.velocity, vec3(0.0)), push, before);
-    return vec4(next.impulse, next.multiplier);
+    vec4 impulse = vec4(next.impulse, next.multiplier);
+    addResidual(asked, impulse, push, before);
+    return impulse;
 }
 void main()
 {
@@ -731,10 +761,12 @@ void main()
         }
         putAllNextColliderImpulses(slot, next);
     }
-    putNextTotals(slot, 0, vec4(impulse, totalsAt(slot, 0).w));
-    putNextTotals(slot, 1, vec4(shift, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(slot, next);
+    putAllEarlierTotals(slot, next);
     vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
     putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
     further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
     putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    endBatch();
 }

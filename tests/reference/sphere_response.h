@@ -12,7 +12,7 @@ struct SphereResponse {
     double stepTime = 0;   // s, since the last contact step
     double restSpeed = 0;  // m/s: slower is rest
     double restitution = 0.2, friction = 0.5;
-    int iterations = 4;
+    int iterations = 8;
 };
 
 // The memory that contacts leave for the next step.

@@ -133,7 +133,7 @@ const Mistake mistakes[] = {
     {"'gravity': [0, -9.81, 0]", "'gravity': [0, -1e+16, 0]", [](Scene& s) { s.gravity.y = -1e16; }},
     {"'substeps': 4", "'substeps': 0", [](Scene& s) { s.solver.substeps = 0; }},
     {"'iterations': 4", "'iterations': 257", [](Scene& s) { s.contact.iterations = 257; }},
-    {"'iterations': 4", "'iterations': 4, 'tolerance': 1e-6", [](Scene& s) { s.contact.tolerance = 1e-6; }},
+    {"'iterations': 4", "'iterations': 4, 'tolerance': 1e-06", [](Scene& s) { s.contact.tolerance = 1e-6; }},
     {"'eye': [0, 2, 8]", "'eye': [0, 1, 0]", [](Scene& s) { s.camera.eye = s.camera.target; }},
     {"'exposure': 1", "'exposure': 0", [](Scene& s) { s.camera.exposure = 0; }},
     {"'light': {'direction': [0, -1, 0]", "'light': {'direction': [0, 0, 0]",
