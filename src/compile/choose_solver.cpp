@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "compile/generate_forces.h"
 #include "compile/path.h"
+#include "compile/strain.h"
 #include "molecule/analysis.h"
 #include "scene/force_kinds.h"
 
@@ -52,6 +54,79 @@ void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
         throw Error(place, concat(name(plan.solver), " takes drag up to a rate times substep of ", most,
                                   "; \"", plan.name, "\" has ", drag, " /s times ", step,
                                   " s: ", steps(frame, most / drag), ", or another solver"));
+}
+
+// How far a group's springs strain with a solver and so many times the scene's substeps (compile/strain.h).
+// Where molecules stand in any way, gravity is aslant of all their axes.
+double strainOf(const Scene& scene, const Group& group, const GroupPlan& plan, SolverKind kind,
+                int finer = 1) {
+    StrainRun run{.solver = kind,
+                  .substep = 1 / scene.frameRate / scene.solver.substeps,
+                  .finer = finer,
+                  .scale = group.place.scale.x,
+                  .stiffness = plan.stiffness,
+                  .damping = plan.damping,
+                  .held = plan.needs.pins,
+                  .spin = group.spin};
+    const bool anyhow =
+        group.place.turn == Placement::Turn::any || group.place.align == Placement::Align::normal;
+    if (run.held)
+        run.gravity = anyhow ? glm::dvec3(glm::length(scene.gravity) / std::sqrt(3.0)) : scene.gravity;
+    if (!group.place.items.empty()) {
+        const Placement::Item& first = group.place.items.front();
+        run.scale = first.scale;
+        run.gravity = glm::inverse(first.rotation) * run.gravity;
+        run.spin = glm::inverse(first.rotation) * run.spin;
+    }
+    return largestStrain(group.molecule, run);
+}
+
+constexpr double strainTold = 0.02;  // more than in the finest steps
+constexpr int finest = 16;           // times the substeps
+
+std::string percent(double share) {
+    return concat(std::round(1000 * share) / 10, " %");
+}
+
+// Takes bdf2-corotated in place of bdf2-xpbd where sweeps strain the springs and it does not; else warns of
+// the solver that strains them.
+void checkStrain(const Scene& scene, const Group& group, Plan& plan, GroupPlan& out) {
+    if (!solver(out.solver).implicit || !out.needs.springs || !fitsLane(out) || out.isStill()) return;
+    const auto strain = [&](SolverKind kind, int finer = 1) {
+        return strainOf(scene, group, out, kind, finer);
+    };
+    const double left = strain(out.solver);
+    if (left <= strainTold) return;
+    const double most = strain(SolverKind::bdf2Xpbd, finest) + strainTold;
+    if (left <= most) return;
+    // The solver that holds the springs with so many times the substeps.
+    const auto holder = [&](int finer) -> std::optional<SolverKind> {
+        if (strain(SolverKind::bdf2Xpbd, finer) <= most) return SolverKind::bdf2Xpbd;
+        if (!out.needs.liveSprings && strain(SolverKind::bdf2Corotated, finer) <= most)
+            return SolverKind::bdf2Corotated;
+        return {};
+    };
+    int finer = 1;
+    std::optional<SolverKind> better = holder(finer);
+    while (!better)
+        better = holder(finer *= 2);
+    if (finer == 1 && !scene.solver.kind) {
+        const SolverKind before = std::exchange(out.solver, *better);
+        if (!takesLong(plan, out)) {
+            out.solverWhy = concat("sweeps would strain the springs by ", percent(left));
+            return;
+        }
+        out.solver = before;
+    }
+    const double frame = 1 / scene.frameRate;
+    const int substeps = scene.solver.substeps;
+    std::string instead = finer == 1 ? concat("use ", name(*better)) : steps(frame, frame / substeps / finer);
+    if (finer > 1 && scene.solver.kind && *better != out.solver) instead += concat(", with ", name(*better));
+    plan.warnings.push_back(
+        {scene.solver.location.empty() ? group.location : scene.solver.location,
+         concat(name(out.solver), " strains the springs of \"", out.name, "\" by up to ", percent(left),
+                ", where bdf2-xpbd in ", finest * substeps, " substeps strains them by ",
+                percent(most - strainTold), ": ", instead)});
 }
 
 // Thrust and wind are taken exactly.
@@ -116,6 +191,7 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
     out.stableStep = solver(out.solver).longestStep(analysis);
     out.rigid = isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
+    checkStrain(scene, group, plan, out);
     const std::string hasty = hastyForce(scene.forces, out, step);
     if (hasty.empty()) return;
     const double longest = shoal::solver(out.solver).mostForced / turning;

@@ -1,6 +1,7 @@
 // Molecules and problems made in code for the tests. The cases of the table of solvers, with +Y up.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -40,6 +41,41 @@ inline Molecule leaf(double stiffness, double damping) {
         }
     }
     out.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return out;
+}
+
+// A chain of vertices of 0.01 kg that hangs down from the first, which is pinned; 0.1 m from one to the next.
+inline Molecule hangingChain(int vertices, double stiffness, double damping) {
+    Molecule out;
+    out.name = "chain";
+    for (int i = 0; i < vertices; ++i)
+        out.vertices.push_back({.position = {0, -0.1 * i, 0}, .mass = 0.01, .pinned = i == 0});
+    for (int i = 1; i < vertices; ++i)
+        out.springs.push_back({i - 1, i, stiffness, damping, {}, {}});
+    return out;
+}
+
+// A tetrahedron with edges of 0.1 m and vertices of 0.01 kg, about the origin.
+inline Molecule regularTetrahedron(double stiffness, double damping) {
+    Molecule out;
+    out.name = "tetrahedron";
+    const double a = 0.1 / std::sqrt(8.0);
+    for (const glm::dvec3 corner : {glm::dvec3{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}})
+        out.vertices.push_back({.position = corner, .mass = 0.01});
+    for (int i = 1; i < 4; ++i)
+        for (int j = 0; j < i; ++j)
+            out.springs.push_back({i, j, stiffness, damping, {}, {}});
+    return out;
+}
+
+// The largest |length / rest length - 1| of a spring.
+inline double worstStrain(const Molecule& molecule, const reference::State& state) {
+    double out = 0;
+    for (const Spring& spring : molecule.springs) {
+        const double length =
+            glm::distance(state.position[size_t(spring.a)], state.position[size_t(spring.b)]);
+        out = std::max(out, std::abs(length / molecule.restLength(spring) - 1));
+    }
     return out;
 }
 

@@ -149,8 +149,10 @@ TEST_CASE("molecules that no path holds are refused by their vertices alone, as 
     CHECK_THROWS_AS(checkVertices(scene(171), Path::fused, limits), Error);
 }
 
-TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, and runs in fragments",
-          "[lanes]") {
+TEST_CASE(
+    "every scene that ships takes a lane a molecule on a CPU rasteriser, runs in fragments, and strains no "
+    "spring",
+    "[lanes][strain]") {
     int groups = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(SHOAL_SOURCE_DIR "/models")) {
         if (!entry.path().string().ends_with(".scene.json")) continue;
@@ -158,6 +160,8 @@ TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, a
         for (Group& group : scene.groups)
             group.count = std::min(group.count, 100);
         const Plan plan = compile(scene);
+        for (const Warning& warning : plan.warnings)
+            CHECK_THAT(warning.message, !Catch::Contains("strains the springs"));
         PathLimits limits;
         limits.software = true;
         for (const GroupPlan& group : plan.groups) {

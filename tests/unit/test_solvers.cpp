@@ -7,6 +7,7 @@
 #include "compile/corotated.h"
 #include "compile/path.h"
 #include "compile/plan.h"
+#include "compile/strain.h"
 #include "molecule/molecule_file.h"
 #include "reference/discrete.h"
 #include "scene/field_kinds.h"
@@ -289,6 +290,99 @@ TEST_CASE("bdf2-corotated brings a molecule that sweeps have bent back to rest",
                                                1));
         }
         CHECK(strain < 0.03);
+    }
+}
+
+namespace {
+
+// What the plan warns of strained springs; else empty.
+std::string strainWarning(const Plan& plan) {
+    for (const Warning& warning : plan.warnings)
+        if (warning.message.find(" strains the springs of ") != std::string::npos) return warning.message;
+    return {};
+}
+
+Scene chainScene(std::optional<SolverKind> kind) {
+    Scene scene = sceneOf(test::hangingChain(20, 1e5, 20), kind);
+    scene.gravity = {0, -100, 0};
+    return scene;
+}
+
+Scene spinScene(std::optional<SolverKind> kind, double damping) {
+    Scene scene = sceneOf(test::regularTetrahedron(100, damping), kind);
+    scene.groups[0].spin = {5, 3, 20};
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("auto takes bdf2-corotated where sweeps strain the springs and it does not", "[solvers][strain]") {
+    Scene finer = spinScene({}, 1e4);
+    finer.solver.substeps = 16;
+    for (const Scene& scene : {chainScene({}), spinScene({}, 10), spinScene({}, 1e3), finer}) {
+        const Plan plan = compile(scene);
+        CHECK(plan.groups[0].solver == SolverKind::bdf2Corotated);
+        CHECK_THAT(plan.groups[0].solverWhy, Catch::StartsWith("sweeps would strain the springs by "));
+        CHECK(strainWarning(plan).empty());
+    }
+    // a chain that swings, or more damping, strains its springs as well
+    Scene aslant = chainScene({});
+    aslant.groups[0].place.turn = Placement::Turn::any;
+    for (const Scene& scene : {aslant, spinScene({}, 1e4)}) {
+        const Plan plan = compile(scene);
+        CHECK(plan.groups[0].solver == SolverKind::bdf2Xpbd);
+        CHECK_THAT(strainWarning(plan), Catch::Contains(": use at least ") && Catch::EndsWith(" substeps"));
+    }
+    CHECK(compile(sceneOf(test::leaf(1e7, 5))).groups[0].solver == SolverKind::bdf2Xpbd);
+}
+
+TEST_CASE("an implicit solver that strains springs is warned of, with what would do", "[solvers][strain]") {
+    for (const SolverKind kind : {SolverKind::xpbd, SolverKind::bdf2Xpbd})
+        for (const Scene& scene : {chainScene(kind), spinScene(kind, 10), spinScene(kind, 1e3)})
+            CHECK_THAT(strainWarning(compile(scene)),
+                       Catch::StartsWith(name(kind)) && Catch::EndsWith(": use bdf2-corotated"));
+    CHECK_THAT(strainWarning(compile(spinScene(SolverKind::bdf2Corotated, 2e3))),
+               Catch::EndsWith("use at least 8 substeps"));
+    CHECK_THAT(strainWarning(compile(spinScene(SolverKind::bdf2Xpbd, 2e3))),
+               Catch::EndsWith("use at least 8 substeps, with bdf2-corotated"));
+    CHECK(strainWarning(compile(chainScene(SolverKind::bdf2Corotated))).empty());
+    CHECK(strainWarning(compile(sceneOf(test::leaf(1e7, 5), SolverKind::xpbd))).empty());
+    Scene finer = chainScene(SolverKind::bdf2Xpbd);
+    finer.solver.substeps = 32;
+    CHECK(strainWarning(compile(finer)).empty());
+    // springs that are so soft that they strain by 0.1 and more with any steps
+    Scene soft = sceneOf(test::hangingChain(4, 5, 0.1), SolverKind::bdf2Xpbd);
+    soft.gravity = {0, -9.81, 0};
+    CHECK(largestStrain(soft.groups[0].molecule, {.substep = 1 / 240.0, .gravity = soft.gravity}) > 0.1);
+    CHECK(strainWarning(compile(soft)).empty());
+}
+
+TEST_CASE("the strain that is foreseen is that of the same steps in double precision", "[solvers][strain]") {
+    const auto check = [](const Molecule& molecule, const StrainRun& run) {
+        reference::Problem problem{.molecule = &molecule};
+        problem.gravity = run.gravity;
+        problem.held = run.held;
+        reference::State state = reference::restState(problem, {}, {}, run.spin);
+        reference::History history;
+        double worst = 0;
+        for (int i = 0; i < 120; ++i) {
+            if (run.solver == SolverKind::xpbd)
+                reference::xpbdStep(problem, state, run.substep);
+            else
+                reference::bdf2Step(problem, state, history, run.substep,
+                                    run.solver == SolverKind::bdf2Corotated);
+            worst = std::max(worst, test::worstStrain(molecule, state));
+        }
+        INFO(name(run.solver) << " " << molecule.name);
+        CHECK(largestStrain(molecule, run) == Approx(worst).epsilon(0.02));
+    };
+    for (const SolverKind kind : {SolverKind::xpbd, SolverKind::bdf2Xpbd, SolverKind::bdf2Corotated}) {
+        const StrainRun run{.solver = kind, .substep = 1 / 240.0};
+        StrainRun chain = run, spin = run;
+        chain.gravity = {0, -100, 0};
+        spin.spin = {5, 3, 20};
+        check(test::hangingChain(20, 1e5, 20), chain);
+        check(test::regularTetrahedron(100, 10), spin);
     }
 }
 
