@@ -74,6 +74,7 @@ void addMarbles(Scene& scene) {
     scene.groups.push_back(groupAt("held", marble, {{0, 0, 0}, {0.09, 0, 0}}));
     for (Group& group : scene.groups)
         group.contact.emplace().radius = 0.05;
+    scene.contact.iterations = 8;
 }
 
 Scene checkedScene(CheckedPart part) {

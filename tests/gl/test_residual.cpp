@@ -77,6 +77,20 @@ TEST_CASE("iterations end where the residual is small, and not before", "[molecu
     CHECK(simulation.contact()->convergence().iterations == 2 + most % 2);
 }
 
+TEST_CASE("iterations in fragments end where those of compute shaders do", "[molecule contact][agreement]") {
+    if (pathsHere().front() != Path::fused) return;
+    const Scene scene = tower(4, 3);
+    Simulation compute = started(scene, Path::fused), fragments = started(scene, Path::fragments);
+    for (int i = 0; i < 60; ++i) {
+        compute.frame();
+        fragments.frame();
+        const ContactConvergence a = compute.contact()->convergence(), b = fragments.contact()->convergence();
+        CAPTURE(i, a.iterations, b.iterations);
+        REQUIRE(a.iterations == b.iterations);
+        CHECK(*b.residual == Approx(*a.residual).epsilon(0.01).margin(1e-4));
+    }
+}
+
 TEST_CASE("a smaller tolerance takes more iterations", "[molecule contact]") {
     Scene scene = tower(6, 10);
     scene.contact.iterations = 64;
