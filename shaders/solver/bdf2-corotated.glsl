@@ -32,18 +32,12 @@ vec3 turned(vec3 axis, vec3 v, float sine, float cosine)
     return v + across * sine + cross(axis, across) * cosine;
 }
 
-// One step of the fit of `turn` to the covariance, whose columns belong to the rest shape's axes: that of Newton's
-// method, where it is short and leads uphill; 1.001 instead of 1 leaves the turn of a straight chain about itself.
-// Large damping makes strain of what is left of the angle.
+// One step of the fit of `turn` to the covariance, whose columns belong to the rest shape's axes.
 void fitTurn(mat3 covariance)
 {
     vec3 axis = cross(turn[0], covariance[0]) + cross(turn[1], covariance[1]) + cross(turn[2], covariance[2]);
     float along = dot(turn[0], covariance[0]) + dot(turn[1], covariance[1]) + dot(turn[2], covariance[2]);
-    along = max(abs(along), 1e-20);
-    axis = axis / along;
-    mat3 stretch = covariance * transpose(turn) / along;
-    vec3 newton = inverse(mat3(1.001) - 0.5 * (stretch + transpose(stretch))) * axis;
-    if (dot(newton, axis) > 0.0 && dot(newton, newton) < 1.0) axis = newton;
+    axis = axis / max(abs(along), 1e-20);
     float squared = dot(axis, axis);
     float angle = sqrt(squared);
     float sine = angle > 1e-3 ? sin(angle) / angle : 1.0 - squared / 6.0;
@@ -120,7 +114,7 @@ void advance(int step)
     predict(step);
     float time = float(step + 1) * substep;
     bool shares = !(released && SHARED_PINS);  // the matrix
-    bool sweeps = fit(step == 0 ? 8 : 2) || !shares || restart;
+    bool sweeps = fit(step == 0 ? 8 : 3) || !shares || restart;
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];
     }
@@ -136,7 +130,7 @@ void advance(int step)
         for (int i = 0; i < VERTICES; ++i) {
             probe[i] = q[i];  // which nothing reads any more in this substep
         }
-        fit(2);
+        fit(3);
         bool worse = !solved(time);
         for (int i = 0; i < VERTICES; ++i) {
             q[i] = worse ? probe[i] : q[i];

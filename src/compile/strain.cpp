@@ -117,19 +117,14 @@ class StrainedMolecule {
         glm::dmat3 covariance(0);
         for (size_t i = 0; i < x_.size(); ++i)
             covariance += glm::outerProduct(massShare_[i] * (x_[i] + q_[i] - centre), restArm_[i]);
-        for (int round = 0; round < 2; ++round) {
+        for (int round = 0; round < 3; ++round) {
             glm::dvec3 axis(0);
             double along = 0;
             for (int k = 0; k < 3; ++k) {
                 axis += glm::cross(turn_[k], covariance[k]);
                 along += glm::dot(turn_[k], covariance[k]);
             }
-            along = std::max(std::abs(along), 1e-20);
-            axis /= along;
-            const glm::dmat3 stretch = covariance * glm::transpose(turn_) / along;
-            const glm::dvec3 newton =
-                glm::inverse(glm::dmat3(1.001) - 0.5 * (stretch + glm::transpose(stretch))) * axis;
-            if (glm::dot(newton, axis) > 0 && glm::dot(newton, newton) < 1) axis = newton;
+            axis /= std::max(std::abs(along), 1e-20);
             if (const double angle = glm::length(axis); angle > 1e-12)
                 turn_ = glm::mat3_cast(glm::angleAxis(angle, axis / angle)) * turn_;
         }
@@ -220,7 +215,7 @@ class StrainedMolecule {
 
 double largestStrain(const Molecule& molecule, const StrainRun& run) {
     StrainedMolecule strained(molecule, run);
-    const int substeps = int(std::clamp(std::ceil(1 / run.substep), 1.0, 1000.0));
+    const int substeps = int(std::clamp(std::ceil(0.5 / run.substep), 1.0, 1000.0));
     double out = 0;
     for (int n = 0; n < substeps * run.finer; ++n) {
         strained.step();

@@ -3,7 +3,7 @@
 // else, they end far from the stage's solution, and so do quasi-Newton steps with the matrix of a shape that
 // the molecule no longer has.
 //
-// One molecule is run on the CPU for 1 s, at most 1000 substeps, from its rest shape, in spin and under
+// One molecule is run on the CPU for 0.5 s, at most 1000 substeps, from its rest shape, in spin and under
 // gravity, without drag, fields, forces, muscles and contact: in double precision, with the factors of
 // bdf2-corotated as the floats that a GPU has.
 #pragma once

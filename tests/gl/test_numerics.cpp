@@ -128,7 +128,7 @@ TEST_CASE("auto strains a hanging chain of stiff springs by its weight and no mo
 // Two sweeps a substep leave 0.06, 0.19, 0.23 and 0.07.
 TEST_CASE("auto strains overdamped springs in spin as the reference does", "[numerics]") {
     if (testPath() == Path::pingPong) return;
-    for (const auto& [damping, substeps] : {std::pair(10.0, 4), {100.0, 4}, {2e3, 4}, {1e4, 16}}) {
+    for (const auto& [damping, substeps] : {std::pair(10.0, 4), {100.0, 4}, {1e3, 4}, {1e4, 16}}) {
         Scene scene = test::sceneOf(test::regularTetrahedron(100, damping), SolverKind::leapfrog);
         scene.solver.kind.reset();
         scene.gravity = {0, 0, 0};
@@ -142,7 +142,7 @@ TEST_CASE("auto strains overdamped springs in spin as the reference does", "[num
         const Molecule& molecule = scene.groups[0].molecule;
         INFO(damping);
         CHECK(test::worstStrain(molecule, test::stateOf(simulation.snapshot(0), 0)) ==
-              Approx(test::worstStrain(molecule, exact)).margin(8e-3));
+              Approx(test::worstStrain(molecule, exact)).margin(6e-3));
     }
 }
 
