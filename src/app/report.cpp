@@ -116,11 +116,11 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
     if (!times.empty()) append(out, key("stages", arrayOf(times, asJson)));
     append(out, key("written", report.written));
     if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
-    if (simulation.contact())
-        append(out, key("contactBytes", simulation.contact()->bytes()),
-               key("contactsDropped", simulation.contact()->dropped()),
-               key("contactIterations", simulation.contact()->convergence().iterations),
-               key("contactResidual", simulation.contact()->convergence().residual));
+    if (const ContactResult* contact = simulation.contact()) {
+        const ContactConvergence ended = contact->convergence();
+        append(out, key("contactBytes", contact->bytes()), key("contactsDropped", contact->dropped()),
+               key("contactIterations", ended.iterations), key("contactResidual", ended.residual));
+    }
     return out;
 }
 
