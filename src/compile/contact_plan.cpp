@@ -25,7 +25,7 @@ double roundedUp(double length) {
 }
 
 void markClose(const Molecule& molecule, ContactGroup& group) {
-    const std::vector<glm::dvec3> spheres = restSpheres(molecule, group.triangles);
+    const std::vector<glm::dvec3> spheres = restSpheres(molecule, group.points);
     group.wordsOf = (group.spheresOf + 31) / 32;
     group.apart.assign(size_t(group.spheresOf) * size_t(group.wordsOf), 0);
     for (size_t a = 0; a < spheres.size(); ++a)
@@ -36,10 +36,18 @@ void markClose(const Molecule& molecule, ContactGroup& group) {
 
 std::vector<glm::vec4> shapesOf(const ContactGroup& group, const Molecule& molecule, bool held) {
     const size_t vertices = molecule.vertices.size();
-    std::vector<std::vector<int>> around(vertices);
-    for (size_t t = 0; t < group.corners.size(); ++t)
+    struct Around {
+        int sphere;
+        float weight;
+    };
+    std::vector<std::vector<Around>> around(vertices);
+    for (size_t t = 0; t < group.points.size(); ++t) {
+        const auto& [corners, parts] = group.points[t];
         for (int c = 0; c < 3; ++c)
-            around[size_t(group.corners[t][c])].push_back(int(vertices + t));
+            if (parts[c] > 0)
+                around[size_t(corners[c])].push_back(
+                    {int(vertices + t), float(parts[c]) / float(parts.x + parts.y + parts.z)});
+    }
     std::vector<glm::vec4> out;
     int first = group.spheresOf;
     for (size_t v = 0; v < vertices; ++v) {
@@ -48,11 +56,12 @@ std::vector<glm::vec4> shapesOf(const ContactGroup& group, const Molecule& molec
         out.emplace_back(float(1 / vertex.mass), pinned ? 1.0f : 0.0f, float(first), float(around[v].size()));
         first += int(around[v].size());
     }
-    for (const glm::ivec3& corners : group.corners)
-        out.emplace_back(glm::vec3(corners), 0.0f);
-    for (const std::vector<int>& spheres : around)
-        for (const int sphere : spheres)
-            out.emplace_back(float(sphere), 0.0f, 0.0f, 0.0f);
+    for (const auto& [corners, parts] : group.points)
+        out.emplace_back(glm::vec3(corners),
+                         float(parts.x + 256 * parts.y + 65536 * (parts.x + parts.y + parts.z)));
+    for (const std::vector<Around>& spheres : around)
+        for (const auto& [sphere, weight] : spheres)
+            out.emplace_back(float(sphere), weight, 0.0f, 0.0f);
     return out;
 }
 
@@ -70,15 +79,11 @@ glm::dvec2 massesOf(const Molecule& molecule, const GroupPlan& plan) {
 ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     ContactGroup out;
     out.radius = source.contact->radius;
-    out.triangles = source.contact->triangles;
+    out.points = trianglePoints(source.molecule, *source.contact);
+    out.triangles = !out.points.empty();
     out.self = source.contact->self;
     if (source.particle && source.life) out.growth = source.particle->growth;
-    out.spheresOf = plan.vertexCount;
-    if (out.triangles) {
-        for (const Triangle& t : source.molecule.triangles)
-            out.corners.emplace_back(t.a, t.b, t.c);
-        out.spheresOf += int(out.corners.size());
-    }
+    out.spheresOf = plan.vertexCount + int(out.points.size());
     out.masses = massesOf(source.molecule, plan);
     out.shapes = shapesOf(out, source.molecule, plan.needs.pins);
     if (out.self) markClose(source.molecule, out);
@@ -212,8 +217,13 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     return out;
 }
 
+std::vector<TrianglePoint> trianglePoints(const Molecule& molecule, const GroupContact& contact) {
+    if (contact.closed) return closingPoints(molecule, contact.radius);
+    return contact.triangles ? middlePoints(molecule) : std::vector<TrianglePoint>();
+}
+
 Gap largestGap(const Molecule& molecule, const GroupContact& contact) {
-    return largestGap(molecule, restSpheres(molecule, contact.triangles), contact.radius);
+    return largestGap(molecule, restSpheres(molecule, trianglePoints(molecule, contact)), contact.radius);
 }
 
 }  // namespace shoal

@@ -33,8 +33,8 @@ struct ContactGroup {
     // it that is pinned counts; where all is, both are 0.
     glm::dvec2 masses{0};
     bool triangles = false, self = false;
-    std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
-    std::vector<glm::vec4> shapes;    // shaders/contact/grid/shape.glsl
+    std::vector<TrianglePoint> points;  // of the spheres behind those of the vertices
+    std::vector<glm::vec4> shapes;      // shaders/contact/grid/shape.glsl
     // With `self`: bit k of the words of a sphere tells that it does not meet sphere k of its own molecule:
     // itself, and what is closer than two radii in the rest shape. `wordsOf` words a sphere.
     std::vector<uint32_t> apart;
@@ -94,6 +94,9 @@ struct ContactPlan {
     // steps.
     double safeSpeed(double frameTime) const;
 };
+
+// Where spheres of contact lie on triangles.
+std::vector<TrianglePoint> trianglePoints(const Molecule& molecule, const GroupContact& contact);
 
 // The largest gap that the spheres of contact leave open.
 Gap largestGap(const Molecule& molecule, const GroupContact& contact);

@@ -52,9 +52,8 @@ void warnOfSpheres(const Scene& scene, Plan& plan) {
         plan.warnings.push_back(
             {asked.location,
              concat("the spheres of \"", group.name, "\" leave a gap in triangle ", gap.triangle,
-                    " through which a sphere of radius ", gap.radius, " m passes, larger than their own: ",
-                    asked.triangles ? "a larger radius closes it"
-                                    : "\"triangles\": true or a larger radius closes it")});
+                    " through which a sphere of radius ", gap.radius,
+                    " m passes, larger than their own: ", "\"closed\": true or a larger radius closes it")});
     }
 }
 
@@ -76,8 +75,9 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     constexpr int many = 1000;  // vertices, whose gaps take too long to look at
     if (!plan.needs.collide || group.molecule.triangles.empty() || plan.vertexCount > many) return;
     const double scale = largestScale(plan), radius = group.contact ? group.contact->radius * scale : 0;
-    const bool middles =
-        group.contact && group.contact->triangles && scene.contact.response == ContactResponse::simultaneous;
+    std::vector<TrianglePoint> points;
+    if (group.contact && scene.contact.response == ContactResponse::simultaneous)
+        points = trianglePoints(group.molecule, *group.contact);
     std::optional<Gap> gap;
     std::string names;
     size_t count = 0;
@@ -85,7 +85,7 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     for (const Collider& collider : scene.colliders) {
         const std::optional<double> girth = girthOf(*collider.shape);
         if (!girth) continue;
-        if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, middles), 0);
+        if (!gap) gap = largestGap(group.molecule, restSpheres(group.molecule, points), 0);
         if (*girth + std::max(collider.thickness, radius) >= gap->radius * scale) continue;
         needed = std::max(needed, gap->radius - *girth / scale);
         if (++count > 3) continue;
@@ -98,7 +98,7 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
     warnings.push_back(
         {group.location,
          concat(names, count > 1 ? " pass" : " passes", " through triangle ", gap->triangle, " of \"",
-                plan.name, "\": its vertices", middles ? " and the middles of its triangles" : "",
+                plan.name, "\": its vertices", points.empty() ? "" : " and the spheres on its triangles",
                 " alone touch colliders, and leave a gap of ", gap->radius * scale,
                 " m: a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
 }

@@ -1,15 +1,105 @@
 #include "molecule/gap.h"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
 
 namespace shoal {
 
-std::vector<glm::dvec3> restSpheres(const Molecule& molecule, bool triangles) {
+namespace {
+
+constexpr int mostCuts = 32;  // of an edge, by a lattice over its triangle
+
+glm::dvec3 placeOf(const Molecule& molecule, const TrianglePoint& point) {
+    glm::dvec3 out(0);
+    for (int c = 0; c < 3; ++c)
+        out += molecule.vertices[size_t(point.corners[c])].position * double(point.parts[c]);
+    return out / double(point.parts.x + point.parts.y + point.parts.z);
+}
+
+// Appends the points along edge ab, without its ends.
+void addEdge(const Molecule& molecule, int a, int b, double radius, std::vector<TrianglePoint>& points) {
+    const double length =
+        glm::distance(molecule.vertices[size_t(a)].position, molecule.vertices[size_t(b)].position);
+    const int cuts = int(std::ceil(length / (2 * radius)));
+    for (int i = 1; i < cuts; ++i)
+        points.push_back({{a, b, b}, {cuts - i, i, 0}});
+}
+
+// Appends points within a triangle, each where the gap is largest, as long as a like sphere passes that is a
+// tenth smaller. `around`: the spheres on its edges.
+void addInner(const Molecule& molecule, const Triangle& t, double radius, std::vector<glm::dvec3> around,
+              std::vector<TrianglePoint>& points) {
+    constexpr int cuts = mostCuts;
+    for (;;) {
+        double largest = 2 * 0.9 * radius;
+        std::optional<TrianglePoint> found;
+        for (int i = 1; i < cuts; ++i) {
+            for (int k = 1; k + i < cuts; ++k) {
+                const TrianglePoint point{{t.a, t.b, t.c}, {cuts - i - k, i, k}};
+                const glm::dvec3 place = placeOf(molecule, point);
+                double nearest = 1e300;
+                for (size_t s = 0; s < around.size() && nearest > largest; ++s)
+                    nearest = std::min(nearest, glm::distance(place, around[s]));
+                if (nearest <= largest) continue;
+                largest = nearest;
+                found = point;
+            }
+        }
+        if (!found) return;
+        points.push_back(*found);
+        around.push_back(placeOf(molecule, *found));
+    }
+}
+
+}  // namespace
+
+std::vector<TrianglePoint> middlePoints(const Molecule& molecule) {
+    std::vector<TrianglePoint> out;
+    for (const Triangle& t : molecule.triangles)
+        out.push_back({{t.a, t.b, t.c}, {1, 1, 1}});
+    return out;
+}
+
+std::vector<TrianglePoint> closingPoints(const Molecule& molecule, double radius) {
+    std::vector<TrianglePoint> out;
+    std::set<std::pair<int, int>> edges;
+    for (const Triangle& t : molecule.triangles)
+        for (const auto& [a, b] : {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)})
+            if (edges.emplace(a, b).second) addEdge(molecule, a, b, radius, out);
+    for (const Triangle& t : molecule.triangles) {
+        std::vector<TrianglePoint> border;
+        for (const auto& [a, b] : {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
+            border.push_back({{a, b, b}, {1, 0, 0}});
+            border.push_back({{a, b, b}, {0, 1, 0}});
+            addEdge(molecule, a, b, radius, border);
+        }
+        std::vector<glm::dvec3> around;
+        for (const TrianglePoint& point : border)
+            around.push_back(placeOf(molecule, point));
+        addInner(molecule, t, radius, std::move(around), out);
+    }
+    return out;
+}
+
+double leastClosingRadius(const Molecule& molecule) {
+    double longest = 0;
+    for (const Triangle& t : molecule.triangles) {
+        const glm::dvec3 &a = molecule.vertices[size_t(t.a)].position,
+                         &b = molecule.vertices[size_t(t.b)].position,
+                         &c = molecule.vertices[size_t(t.c)].position;
+        longest = std::max({longest, glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    }
+    return longest / mostCuts;
+}
+
+std::vector<glm::dvec3> restSpheres(const Molecule& molecule, const std::vector<TrianglePoint>& points) {
     std::vector<glm::dvec3> out;
     for (const Vertex& vertex : molecule.vertices)
         out.push_back(vertex.position);
-    for (const Triangle& t : molecule.triangles)
-        if (triangles) out.push_back((out[size_t(t.a)] + out[size_t(t.b)] + out[size_t(t.c)]) / 3.0);
+    for (const TrianglePoint& point : points)
+        out.push_back(placeOf(molecule, point));
     return out;
 }
 
@@ -18,7 +108,7 @@ std::vector<glm::dvec3> restSpheres(const Molecule& molecule, bool triangles) {
 Gap largestGap(const Molecule& molecule, const std::vector<glm::dvec3>& spheres, double radius) {
     Gap out;
     // a shape with many spheres has small triangles
-    const int cuts = spheres.size() > 200 ? 8 : 32;
+    const int cuts = spheres.size() > 200 ? 8 : mostCuts;
     for (size_t t = 0; t < molecule.triangles.size(); ++t) {
         const Triangle& triangle = molecule.triangles[t];
         const glm::dvec3 &a = spheres[size_t(triangle.a)], &b = spheres[size_t(triangle.b)],
@@ -38,7 +128,8 @@ Gap largestGap(const Molecule& molecule, const std::vector<glm::dvec3>& spheres,
 }
 
 double closingRadius(const Molecule& molecule, bool triangles) {
-    const std::vector<glm::dvec3> spheres = restSpheres(molecule, triangles);
+    const std::vector<glm::dvec3> spheres =
+        restSpheres(molecule, triangles ? middlePoints(molecule) : std::vector<TrianglePoint>());
     if (spheres.size() == 1) return molecule.material.pointSize / 2;
     if (!molecule.triangles.empty()) return largestGap(molecule, spheres, 0).radius / 2;
     double out = 0;

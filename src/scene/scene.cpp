@@ -183,6 +183,10 @@ const Description& describe(const GroupContact*) {
             .usually("what closes the gaps: half of the largest; of a point half of its drawn size")
             .key("triangles", &C::triangles,
                  {"", "Whether there is a sphere at the middle of each triangle, too."})
+            .key("closed", &C::closed,
+                 {"",
+                  "Whether there are as many along edges and over triangles as it takes to let none of a "
+                  "like molecule's edges and corners pass."})
             .key("self", &C::self,
                  {"",
                   "Whether spheres of one molecule meet, too, but for those that are closer than two radii "

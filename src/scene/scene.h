@@ -68,11 +68,12 @@ struct Release {
     double after = 0;             // s: not before this time
 };
 
-// Contact with other molecules: spheres of one radius at the vertices, and where asked at the triangles'
-// middles, which the vertices' leave uncovered.
+// Contact with other molecules: spheres of one radius at the vertices, and where asked on the triangles,
+// which those leave uncovered.
 struct GroupContact {
     double radius = 0;       // m, times the instance's scale; in a file: what closes the gaps, unless given
     bool triangles = false;  // a sphere at the middle of each triangle, too
+    bool closed = false;     // spheres on edges and triangles, so close that nothing like them passes
     bool self = false;       // also between spheres of one molecule that are apart in its rest shape
     Location location;
 };

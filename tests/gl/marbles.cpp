@@ -90,10 +90,13 @@ std::vector<reference::Sphere> spheresOf(const Plan& plan) {
             };
             for (int v = 0; v < group.vertexCount; ++v)
                 out.push_back(vertex(v));
-            for (const glm::ivec3& t : contact.corners) {
-                reference::Sphere middle = vertex(t.x);
-                middle.position = (vertex(t.x).position + vertex(t.y).position + vertex(t.z).position) / 3.0;
-                out.push_back(middle);
+            for (const auto& [corners, parts] : contact.points) {
+                reference::Sphere between = vertex(corners.x);
+                between.position = glm::dvec3(0);
+                for (int c = 0; c < 3; ++c)
+                    between.position += vertex(corners[c]).position * double(parts[c]);
+                between.position /= double(parts.x + parts.y + parts.z);
+                out.push_back(between);
             }
         }
         molecules += group.count;

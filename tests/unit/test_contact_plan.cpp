@@ -54,8 +54,8 @@ TEST_CASE("spheres on triangles follow those of the vertices", "[contact plan]")
     scene.groups[0].contact->self = true;
     const ContactGroup group = compile(scene).contact.groups.at(0);
     CHECK(group.spheresOf == 6);
-    REQUIRE(group.corners.size() == 2);
-    CHECK(group.corners[1] == glm::ivec3(0, 2, 3));
+    REQUIRE(group.points.size() == 2);
+    CHECK(group.points[1].corners == glm::ivec3(0, 2, 3));
     // vertex 0 is a corner of both
     CHECK(group.shapes[0].w == 2);
     CHECK(group.shapes[size_t(group.shapes[0].z)].x == 4);
@@ -78,6 +78,35 @@ TEST_CASE("the largest gap of a triangle is that of its circumcircle", "[contact
     CHECK(std::abs(largestGap(molecule, contact).radius - (1 / 3.0 - 0.2)) < 0.02);
     contact.radius = 0.6;
     CHECK(largestGap(molecule, contact).triangle == -1);
+}
+
+// A sphere that lies anywhere on an edge or a triangle overlaps one of those that close it, and two edges
+// that cross bring two of their spheres within 1.5 radii.
+TEST_CASE("spheres that close a molecule leave no gap in triangles of any shape", "[contact plan]") {
+    Molecule molecule;
+    molecule.name = "two triangles";
+    for (const dvec3& p : {dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0.9, 0, 0.5), dvec3(0.1, 0.2, -0.1)})
+        molecule.vertices.push_back({.position = p});
+    molecule.triangles = {{0, 2, 1}, {0, 1, 3}};
+    for (const double radius : {0.6, 0.3, 0.1, 0.04}) {
+        const std::vector<TrianglePoint> points = closingPoints(molecule, radius);
+        const std::vector<dvec3> spheres = restSpheres(molecule, points);
+        CAPTURE(radius, points.size());
+        CHECK(largestGap(molecule, spheres, radius).radius < radius);
+        // the edge that both have is closed once
+        int shared = 0;
+        for (const TrianglePoint& point : points)
+            shared += point.corners == glm::ivec3(0, 1, 1);
+        CHECK(shared == int(std::ceil(1 / (2 * radius))) - 1);
+        for (int i = 0; i <= 100; ++i) {
+            double nearest = 1e300;
+            for (const dvec3& sphere : spheres)
+                nearest = std::min(nearest, glm::distance(sphere, dvec3(i / 100.0, 0, 0)));
+            CHECK(nearest <= radius * (1 + 1e-9));
+        }
+    }
+    CHECK(closingPoints(molecule, 0.6).empty());
+    CHECK(leastClosingRadius(molecule) > 1 / 32.0);
 }
 
 TEST_CASE("contact that is probably not meant is warned of", "[contact plan]") {

@@ -67,7 +67,7 @@ TEST_CASE("what is thinner than the gaps between vertices is warned of", "[warni
     const std::string middles = R"(, "contact": {"radius": 0.01, "triangles": true})";
     CHECK_THAT(warningsOf(ball(0.2), aSheet + middles), !Contains("alone touch"));
     CHECK_THAT(warningsOf(ball(0.19), aSheet + middles),
-               Contains("its vertices and the middles of its triangles alone touch colliders"));
+               Contains("its vertices and the spheres on its triangles alone touch colliders"));
     CHECK_THAT(warningsOf(ball(0.3), aSheet + R"(, "collide": false)"), !Contains("alone touch"));
     CHECK_THAT(
         warningsOf(R"({"type": "capsule", "from": [0, 0, 0], "to": [9, 0, 0], "radius": 0.1})", aSheet),

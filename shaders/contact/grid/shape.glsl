@@ -1,8 +1,9 @@
 // `shapes` describes the spheres of a molecule, one texel each:
 //   of a vertex     x 1/mass (1/kg), y 1: pinned, z first of its triangles' spheres in `around`, w how many
-//   of a triangle   xyz its corners
-// Behind them is `around`: the spheres of the triangles around a vertex, one texel each (x).
+//   of a triangle   its corners and their parts (contact/grid/triangle_point.glsl)
+// Behind them is `around`: the spheres of the triangles around a vertex, one texel each: x which, y the vertex's weight in it.
 // Set by C++: VERTICES, SPHERES, POSITION_ELEMENTS, STATE_ELEMENTS, BLOCK or with LAYERED STATE_WIDTH.
+#include "contact/grid/triangle_point.glsl"
 #include "state/packed.glsl"
 #include "state/lanes.glsl"
 #pragma reads shapes slots

@@ -15,18 +15,24 @@ StateSphere sphereOfState(int molecule, int k)
     own.anchor = record.xyz;
     own.lives = true;
     own.fresh = false;
-    bool isVertex = !TRIANGLES || k < VERTICES;
-    ivec3 corners = isVertex ? ivec3(k) : ivec3(shapeOf(k).xyz);
-    own.position = packedVertex(oldState, first, 0, corners.x);
-    own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, corners.x);
-    own.weight = weightOf(shapeOf(corners.x), released);
-    if (!isVertex) {
-        own.position = (own.position + packedVertex(oldState, first, 0, corners.y) +
-                        packedVertex(oldState, first, 0, corners.z)) / 3.0;
-        own.velocity = (own.velocity + packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
-                        packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
-        // an impulse on the middle is a third on each corner
-        own.weight = (own.weight + weightOf(shapeOf(corners.y), released) + weightOf(shapeOf(corners.z), released)) / 9.0;
+    if (!TRIANGLES || k < VERTICES) {
+        own.position = packedVertex(oldState, first, 0, k);
+        own.velocity = packedVertex(oldState, first, POSITION_ELEMENTS, k);
+        own.weight = weightOf(shapeOf(k), released);
+    } else {
+        TrianglePoint point = trianglePoint(shapeOf(k));
+        own.position = vec3(0.0);
+        own.velocity = vec3(0.0);
+        own.weight = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            int corner = point.corners[c];
+            own.position += packedVertex(oldState, first, 0, corner) * point.parts[c];
+            own.velocity += packedVertex(oldState, first, POSITION_ELEMENTS, corner) * point.parts[c];
+            own.weight += weightOf(shapeOf(corner), released) * (point.parts[c] * point.parts[c]);
+        }
+        own.position /= point.all;
+        own.velocity /= point.all;
+        own.weight /= point.all * point.all;
     }
     float scale = 1.0;
 #ifdef CONSTANTS

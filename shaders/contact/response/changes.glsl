@@ -96,7 +96,10 @@ Total changeOfVertex(int vertex, int first, bool released)
 {
     vec4 shape = shapeOf(vertex);
     Total sum = totalAt(first + vertex);
-    for (int i = 0; i < int(shape.w); ++i) add(sum, totalAt(first + int(shapeOf(int(shape.z) + i).x)), 1.0 / 3.0);
+    for (int i = 0; i < int(shape.w); ++i) {
+        vec4 around = shapeOf(int(shape.z) + i);
+        add(sum, totalAt(first + int(around.x)), around.y);
+    }
     Total change = noTotal;
     add(change, sum, weightOf(shape, released));
     return change;
@@ -108,9 +111,11 @@ Total changeOf(int molecule, int k)
     if (RIGID) return changeIn(totalOfBody(molecule), molecule, k);
     int first = moleculeSphere(molecule);
     bool released = valueOf(oldRecords, molecule).w < 0.0;
-    vec4 shape = shapeOf(k);
     if (k < VERTICES) return changeOfVertex(k, first, released);
+    TrianglePoint point = trianglePoint(shapeOf(k));
     Total change = noTotal;
-    for (int c = 0; c < 3; ++c) add(change, changeOfVertex(int(shape[c]), first, released), 1.0 / 3.0);
+    for (int c = 0; c < 3; ++c) {
+        if (point.parts[c] > 0.0) add(change, changeOfVertex(point.corners[c], first, released), point.parts[c] / point.all);
+    }
     return change;
 }

@@ -1,5 +1,6 @@
 // The molecule of a slot, of any group, and how an impulse on one of its spheres moves the others (as contact/response/changes.glsl
 // has it of one group).
+#include "contact/grid/triangle_point.glsl"
 #include "contact/response/body.glsl"
 #include "contact/slots.glsl"
 #pragma reads groupsOf shapes slots
@@ -25,23 +26,22 @@ int slotOfSphere(Molecule molecule, int k)
     return int(slotsAt(molecule.first + k));
 }
 
-ivec3 cornersOf(Molecule molecule, int k)
+TrianglePoint pointOf(Molecule molecule, int k)
 {
-    return k < molecule.vertices ? ivec3(k) : ivec3(shapesAt(molecule.shape + k).xyz);
+    return k < molecule.vertices ? vertexPoint(k) : trianglePoint(shapesAt(molecule.shape + k));
 }
 
-// Returns how 1 N s on sphere s changes the velocity of sphere k, 1/kg, where each vertex gives way alone: a triangle passes a third of
-// it to each corner, and moves as their mean.
+// Returns how 1 N s on sphere s changes the velocity of sphere k, 1/kg, where each vertex gives way alone.
 float shareOf(Molecule molecule, int k, int s)
 {
-    ivec3 moved = cornersOf(molecule, k);
-    ivec3 pushed = cornersOf(molecule, s);
+    TrianglePoint moved = pointOf(molecule, k);
+    TrianglePoint pushed = pointOf(molecule, s);
     float sum = 0.0;
     for (int c = 0; c < 3; ++c) {
-        int times = int(moved[c] == pushed.x) + int(moved[c] == pushed.y) + int(moved[c] == pushed.z);
-        if (times > 0) sum += float(times) * withoutFlag(motionAt(slotOfSphere(molecule, moved[c])).w);
+        float parts = moved.parts[c] * dot(vec3(equal(ivec3(moved.corners[c]), pushed.corners)), pushed.parts);
+        if (parts > 0.0) sum += parts * withoutFlag(motionAt(slotOfSphere(molecule, moved.corners[c])).w);
     }
-    return sum / 9.0;
+    return sum / (moved.all * pushed.all);
 }
 
 // Returns how an impulse on the sphere of one slot, N s, changes the velocity of that of another, m/s.

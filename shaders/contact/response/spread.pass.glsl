@@ -111,9 +111,12 @@ float effectiveSum(int moleculeSphere, int k)
 {
     if (RIGID) return effectiveSumOfBody(moleculeSphere);
     if (!isActedOn(countsAt(slotOf(moleculeSphere + k)))) return 0.0;
-    vec4 shape = shapeOf(k);
-    float most = countOf(k < VERTICES ? k : int(shape.x), moleculeSphere);
-    if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));
+    if (k < VERTICES) return countOf(k, moleculeSphere);
+    TrianglePoint point = trianglePoint(shapeOf(k));
+    float most = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        if (point.parts[c] > 0.0) most = max(most, countOf(point.corners[c], moleculeSphere));
+    }
     return most;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/describe.h"
+#include "molecule/gap.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 #include "scene/json/reader.h"
@@ -154,6 +155,17 @@ void derive(Group& group, const Where& where) {
     deriveLife(group, where);
 }
 
+void checkContact(const GroupContact& contact, const Molecule& molecule, const Where& where) {
+    if (contact.triangles && molecule.triangles.empty())
+        throw Error(where.locate("triangles"), "the molecule has no triangles");
+    if (!contact.closed) return;
+    if (molecule.triangles.empty()) throw Error(where.locate("closed"), "the molecule has no triangles");
+    const double least = leastClosingRadius(molecule);
+    if (contact.radius > 0 && contact.radius < least)
+        throw Error(where.locate("radius"), "spheres of ", contact.radius,
+                    " m are too small to close its triangles: expected a radius of at least ", least, " m");
+}
+
 void checkGroup(const Group& group, const Where& where) {
     // its file was held to the same; a particle's follows from the type, whose colours may glow
     if (!where.given("molecule") && !group.particle) checkMolecule(group.molecule, where.in("molecule"));
@@ -164,8 +176,7 @@ void checkGroup(const Group& group, const Where& where) {
     }
     if (group.life) checkLife(group, where);
     describe(&group.drag).check(group.drag, where.in("drag"), largestNumber);
-    if (group.contact && group.contact->triangles && group.molecule.triangles.empty())
-        throw Error(where.in("contact").locate("triangles"), "the molecule has no triangles");
+    if (group.contact) checkContact(*group.contact, group.molecule, where.in("contact"));
     if (group.colorBy)
         for (const char* key : {"color", "secondColor", "variation"})
             if (where.given(key))
