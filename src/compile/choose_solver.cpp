@@ -26,10 +26,10 @@ Analysis analyseGroup(const Group& group, const GroupPlan& plan) {
     return analyse(scaled, plan.needs.pins && !plan.needs.release);
 }
 
-// Free, without a soft mode, and every deformation is over within a step.
-bool isRigid(const Analysis& analysis, double step) {
-    return analysis.modesKnown && analysis.rigidModes == 6 && analysis.zeroModes == 0 &&
-           analysis.lowestFrequency * step > 1;
+// Its lowest frequency, rad/s, if it is free and without a soft mode; else 0.
+double solidFrequency(const Analysis& analysis) {
+    const bool solid = analysis.modesKnown && analysis.rigidModes == 6 && analysis.zeroModes == 0;
+    return solid ? analysis.lowestFrequency : 0;
 }
 
 std::string steps(double frame, double longest) {
@@ -189,7 +189,9 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     }
     out.stableStep = solver(out.solver).longestStep(analysis);
-    out.rigid = isRigid(analysis, step) && shoal::solver(out.solver).implicit;
+    out.solidFrequency = solidFrequency(analysis);
+    // every deformation is over within a step
+    out.rigid = out.solidFrequency * step > 1 && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
     checkStrain(scene, group, plan, out);
     const std::string hasty = hastyForce(scene.forces, out, step);

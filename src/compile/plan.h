@@ -57,8 +57,9 @@ struct GroupPlan {
     double highestFrequency = 0;         // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;               // s, largest substep of the solver; infinite without springs
     std::optional<size_t> fastestForce;  // in Plan::forces: of those by place the one that turns it fastest
-    bool rigid = false;            // all its springs are too stiff for the step: contact treats it as a body
-    std::vector<bool> pinned;      // a vertex each: held at the start
+    double solidFrequency = 0;  // rad/s, the lowest of a free molecule that springs hold in every way; else 0
+    bool rigid = false;         // all its springs are too stiff for the step: contact treats it as a body
+    std::vector<bool> pinned;   // a vertex each: held at the start
     std::optional<LifePlan> life;  // needs.life
     GroupState start;
     GroupConstants constants;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "compile/contact_warnings.h"
 #include "core/error.h"
 #include "molecule/gap.h"
 #include "scene/force_kinds.h"
@@ -13,49 +14,6 @@
 namespace shoal {
 
 namespace {
-
-// Up, to two digits.
-double rounded(double value) {
-    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-    return std::ceil(value / unit) * unit;
-}
-
-// Warns of contact that no group takes part in, and of more steps of it than substeps.
-void warnOfUnused(const Scene& scene, Plan& plan) {
-    const ContactSettings& asked = scene.contact;
-    if (asked.location.empty()) return;
-    if (!plan.contact.any())
-        plan.warnings.push_back(
-            {asked.location,
-             "no group has \"contact\", so that molecules pass through one another: "
-             "\"contact\": {\"radius\": 0.01} in a group gives its vertices spheres of 1 cm"});
-    else if (asked.steps > plan.contact.steps)
-        plan.warnings.push_back(
-            {asked.location, concat("contact of ", asked.steps, " steps runs ", plan.contact.steps,
-                                    " times a frame, once a substep")});
-}
-
-// Warns of spheres that are larger than their molecule, and where they leave a gap in its surface through
-// which a like sphere passes.
-void warnOfSpheres(const Scene& scene, Plan& plan) {
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        const GroupContact& asked = *scene.groups[group.index].contact;
-        const double size = scene.groups[group.index].molecule.size();
-        if (group.vertexCount > 1 && asked.radius > size)
-            plan.warnings.push_back(
-                {asked.location,
-                 concat("the spheres of \"", group.name, "\", with a radius of ", asked.radius,
-                        " m, are larger than the molecule, which is ", size, " m long")});
-        const Gap gap = largestGap(scene.groups[group.index].molecule, asked);
-        if (gap.radius <= asked.radius) continue;
-        plan.warnings.push_back(
-            {asked.location,
-             concat("the spheres of \"", group.name, "\" leave a gap in triangle ", gap.triangle,
-                    " through which a sphere of radius ", gap.radius,
-                    " m passes, larger than their own: ", "\"closed\": true or a larger radius closes it")});
-    }
-}
 
 // Fields and winds move what has drag, and nothing else. What has a velocity of its own may drift without.
 void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& plan,
@@ -100,71 +58,7 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
          concat(names, count > 1 ? " pass" : " passes", " through triangle ", gap->triangle, " of \"",
                 plan.name, "\": its vertices", points.empty() ? "" : " and the spheres on its triangles",
                 " alone touch colliders, and leave a gap of ", gap->radius * scale,
-                " m: a finer molecule, or \"contact\" with \"radius\": ", rounded(needed), " holds them")});
-}
-
-// Warns of crowds: each sphere is compared with all that share its cells, so many in one place cost the
-// square of their number.
-void warnOfCrowds(const Scene& scene, Plan& plan) {
-    constexpr double many = 64;
-    for (const ContactGroup& contact : plan.contact.groups) {
-        const GroupPlan& group = plan.groups[contact.group];
-        const double reach = 2 * plan.contact.largestRadius;
-        std::vector<size_t> cells;
-        const size_t count = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
-        for (size_t m = 0; m < count; ++m) {
-            const glm::dvec3 place =
-                glm::floor((glm::dvec3(group.start.anchors[m]) +
-                            glm::dvec3(group.start.positions[m * size_t(group.vertexCount)])) /
-                           reach);
-            cells.push_back(std::hash<double>()(place.x) ^ (std::hash<double>()(place.y) * 31) ^
-                            (std::hash<double>()(place.z) * 1009));
-        }
-        std::sort(cells.begin(), cells.end());
-        double others = 0;
-        for (size_t first = 0, i = 0; i <= cells.size(); ++i) {
-            if (i < cells.size() && cells[i] == cells[first]) continue;
-            others += double(i - first) * double(i - first);
-            first = i;
-        }
-        if (count == 0 || others / double(count) <= many) continue;
-        plan.warnings.push_back(
-            {scene.groups[group.index].contact->location,
-             concat(
-                 "the molecules of \"", group.name, "\" start crowded: one has about ",
-                 std::round(others / double(count)), " others within ", reach,
-                 " m, where their spheres may touch. Each pair is looked at, which takes long, and a sphere "
-                 "keeps at most ",
-                 plan.contact.listLength, " of them: a larger place or a smaller radius helps")});
-    }
-}
-
-// Warns of the heaviest on the lightest that contact moves, where something makes them lie on one another.
-void warnOfMasses(const Scene& scene, Plan& plan) {
-    const ContactPlan& contact = plan.contact;
-    if (!contact.remembers() || scene.gravity == glm::dvec3(0)) return;
-    const ContactGroup *light = nullptr, *heavy = nullptr;
-    for (const ContactGroup& group : contact.groups) {
-        if (group.masses.x == 0) continue;  // it is held
-        if (!light || group.masses.x < light->masses.x) light = &group;
-        if (!heavy || group.masses.y > heavy->masses.y) heavy = &group;
-    }
-    if (!light) return;
-    const double ratio = heavy->masses.y / light->masses.x;
-    if (ratio <= ContactPlan::carried(contact.settings.iterations)) return;
-    constexpr int most = ContactSettings::mostIterations;
-    int needed = 1;
-    while (needed <= most && ContactPlan::carried(needed) < ratio)
-        ++needed;
-    plan.warnings.push_back(
-        {scene.groups[plan.groups[heavy->group].index].contact->location,
-         concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", rounded(ratio),
-                " times as heavy as of \"", plan.groups[light->group].name,
-                "\": where it lies on that, it sinks in or sways",
-                needed > most
-                    ? concat(", since ", most, " \"iterations\", which are the most, carry ",
-                             ContactPlan::carried(most), " times the mass")
-                    : concat(" with less than ", needed, " \"iterations\", and in a tower with more"))});
+                " m: a finer molecule, or \"contact\" with \"radius\": ", roundedUp(needed), " holds them")});
 }
 
 // Warns of a swimmer that does not lie along +Z or has no muscles; a point has neither.
@@ -250,10 +144,7 @@ void warnOf(const Scene& scene, Plan& plan) {
         warnOfThinColliders(scene, source, group, plan.warnings);
         warnOfSizes(scene, source, group, plan.warnings);
     }
-    warnOfUnused(scene, plan);
-    warnOfSpheres(scene, plan);
-    warnOfMasses(scene, plan);
-    warnOfCrowds(scene, plan);
+    warnOfContact(scene, plan);
 }
 
 }  // namespace shoal

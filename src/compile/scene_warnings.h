@@ -5,9 +5,8 @@
 
 namespace shoal {
 
-// Adds to the plan's warnings, when all else of it is made: contact of no group, spheres that are too large
-// or leave gaps, masses too unlike to lie on one another, crowds, fields that nothing feels, schools that
-// cannot swim, and what is drawn larger than it touches.
+// Adds to the plan's warnings, when all else of it is made: those of contact (compile/contact_warnings.h),
+// fields that nothing feels, schools that cannot swim, and what is drawn larger than it touches.
 void warnOf(const Scene& scene, Plan& plan);
 
 }  // namespace shoal

@@ -75,7 +75,9 @@ int crossed(const std::vector<dvec3>& here, const std::vector<dvec3>& there) {
     for (size_t m = 0; m < pairs; ++m) {
         bool any = false;
         const auto look = [&](const std::vector<dvec3>& edges, const std::vector<dvec3>& triangles) {
-            const auto of = [&](const std::vector<dvec3>& all, int v) { return all[m * vertices + size_t(v)]; };
+            const auto of = [&](const std::vector<dvec3>& all, int v) {
+                return all[m * vertices + size_t(v)];
+            };
             for (const Spring& spring : molecule.springs)
                 for (const Triangle& t : molecule.triangles)
                     any |= crosses(of(edges, spring.a), of(edges, spring.b), of(triangles, t.a),
@@ -103,6 +105,8 @@ TEST_CASE("limp sheets that are closed do not cross where they meet at 5 m/s", "
         most = std::max(most, crossed(simulation.snapshot(0).positions, simulation.snapshot(1).positions));
     }
     CAPTURE(name(path), closed, most);
-    if (closed) CHECK(most == 0);
-    else CHECK(most > 0);
+    if (closed)
+        CHECK(most == 0);
+    else
+        CHECK(most > 0);
 }

@@ -1,0 +1,44 @@
+// Warnings of contact that will not hold.
+#include "compile/plan.h"
+#include "molecule/molecule_file.h"
+#include "scene/collider_kinds.h"
+#include "support/catch.h"
+
+using namespace shoal;
+
+namespace {
+
+// Sweets that fall as a grid of so many layers onto a floor.
+std::string warningsOfPile(int layers, int substeps, double drag = 0) {
+    Scene scene;
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.substeps = substeps;
+    Group& group = scene.groups.emplace_back();
+    group.name = "sweets";
+    group.molecule = readMolecule(SHOAL_SOURCE_DIR "/molecules/berry.json");
+    group.place.kind = Placement::Kind::grid;
+    group.place.origin = {0, 0.02, 0};
+    group.place.spacing = glm::dvec3(0.031);
+    group.place.cells = {6, layers, 6};
+    group.count = 36 * layers;
+    group.drag = {drag, drag};
+    group.contact.emplace().radius = 0.008;
+    scene.colliders.emplace_back().shape = PlaneCollider{};
+    std::string out;
+    for (const Warning& warning : compile(scene).warnings)
+        out += warning.message + "\n";
+    return out;
+}
+
+}  // namespace
+
+// Of 160 layers the lowest end in one another with 4 contact steps, and stand with 12
+// (docs/contact-figures.md).
+TEST_CASE("a tall pile that falls too fast for its contact steps is warned of", "[warnings]") {
+    using Catch::Matchers::Contains;
+    CHECK_THAT(warningsOfPile(160, 4), Contains("reaches 10 m/s"));
+    CHECK_THAT(warningsOfPile(160, 4), Contains("\"substeps\" of at least 11 instead of 4 hold it"));
+    CHECK_THAT(warningsOfPile(160, 12), !Contains("spheres high"));
+    CHECK_THAT(warningsOfPile(40, 4), !Contains("spheres high"));
+    CHECK_THAT(warningsOfPile(160, 4, 9), !Contains("spheres high"));  // it falls at 1.1 m/s
+}
