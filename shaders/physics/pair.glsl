@@ -11,12 +11,20 @@ struct PairContact {
     float speed;  // m/s, along the normal; negative: they approach
 };
 
+// Returns the unit direction in which a sphere leaves another whose centre coincides with its own, from a number of each: a number stands for
+// a point of a cube, which successive ones fill evenly (the R3 sequence [Roberts 2018]). So no three ask for what cannot be.
+vec3 directionFrom(uint other, uint number)
+{
+    uvec3 steps = uvec3(3518319155u, 2882110345u, 2360945575u);  // of 2^32; odd, so that no two numbers have the same point
+    vec3 d = vec3((steps * number) >> 8u) - vec3((steps * other) >> 8u);
+    return d / sqrt(max(dot(d, d), 1.0f));
+}
+
 // Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii sum up to `reach`.
-// `side`: 1 for one of the two, -1 for the other; where centres coincide it decides.
-PairContact pairContact(vec3 d, vec3 u, float reach, float side)
+PairContact pairContact(vec3 d, vec3 u, float reach)
 {
     float apart = sqrt(dot(d, d));
-    vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    vec3 direction = d / max(apart, 1e-30f);
     return PairContact(direction, reach - apart, dot(direction, u));
 }
 
@@ -30,7 +38,7 @@ struct PairImpact {
 };
 
 // Spheres that overlap when that time begins, and approach, have their impact then. Exchanged, the two give the same to the bit.
-PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, float side)
+PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed)
 {
     vec3 start = d - u * time;
     float along = dot(start, u);
@@ -39,7 +47,7 @@ PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, 
     float wait = gap > 0.0f ? gap / max(sqrt(max(under, 0.0f)) - along, 1e-30f) : 0.0f;
     vec3 touch = start + u * wait;
     float apart = sqrt(dot(touch, touch));
-    vec3 normal = apart > 1e-6f * reach ? touch / apart : vec3(0.0f, side, 0.0f);
+    vec3 normal = touch / max(apart, 1e-30f);
     float speed = dot(normal, u);
     bool happens = along < 0.0f && under > 0.0f && wait <= time && speed < -restSpeed;
     return PairImpact(normal, max(time - wait, 0.0f), speed, happens);

@@ -302,7 +302,7 @@ struct ContactBaseline::Data {
             const auto slot = size_t(active.slot), sphere = size_t(grid.sphereOf(active.slot));
             Memory& known = memory[sphere];
             known = {number, thread, int(piece.kept.size()), 0, vec3(0)};
-            vec3 shift = active.shift + impacts.shift(active.slot);
+            vec3 shift = active.shift;
             for (int c = active.begin; c < active.end; ++c) {
                 const Contact& contact = piece.contacts[size_t(c)];
                 if (!contact.takesPart) continue;
@@ -311,9 +311,11 @@ struct ContactBaseline::Data {
                 known.load += piece.kept.back().impulse;
             }
             known.end = int(piece.kept.size());
-            state.velocities[sphere] +=
-                (active.total + impacts.impulse(active.slot) + known.load) * impacts.spheres[slot].weight;
-            state.positions[sphere] += shift * impacts.spheres[slot].weight;
+            const float weight = impacts.spheres[slot].weight;
+            shift *=
+                std::min(1.0f, step.stepTime / std::max(glm::length(shift) * weight, 1e-30f));  // at 1 m/s
+            state.velocities[sphere] += (active.total + impacts.impulse(active.slot) + known.load) * weight;
+            state.positions[sphere] += (shift + impacts.shift(active.slot)) * weight;
         }
     }
 

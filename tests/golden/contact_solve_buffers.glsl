@@ -275,10 +275,16 @@ struct PairContact {
     float depth;
     float speed;
 };
-PairContact pairContact(vec3 d, vec3 u, float reach, float side)
+vec3 directionFrom(uint other, uint number)
+{
+    uvec3 steps = uvec3(3518319155u, 2882110345u, 2360945575u);
+    vec3 d = vec3((steps * number) >> 8u) - vec3((steps * other) >> 8u);
+    return d / sqrt(max(dot(d, d), 1.0f));
+}
+PairContact pairContact(vec3 d, vec3 u, float reach)
 {
     float apart = sqrt(dot(d, d));
-    vec3 direction = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    vec3 direction = d / max(apart, 1e-30f);
     return PairContact(direction, reach - apart, dot(direction, u));
 }
 struct PairImpact {
@@ -287,7 +293,7 @@ struct PairImpact {
     float speed;
     bool happens;
 };
-PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, float side)
+PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed)
 {
     vec3 start = d - u * time;
     float along = dot(start, u);
@@ -296,7 +302,7 @@ PairImpact nextImpact(vec3 d, vec3 u, float reach, float time, float restSpeed, 
     float wait = gap > 0.0f ? gap / max(sqrt(max(under, 0.0f)) - along, 1e-30f) : 0.0f;
     vec3 touch = start + u * wait;
     float apart = sqrt(dot(touch, touch));
-    vec3 normal = apart > 1e-6f * reach ? touch / apart : vec3(0.0f, side, 0.0f);
+    vec3 normal = touch / max(apart, 1e-30f);
     float speed = dot(normal, u);
     bool happens = along < 0.0f && under > 0.0f && wait <= time && speed < -restSpeed;
     return PairImpact(normal, max(time - wait, 0.0f), speed, happens);
@@ -449,6 +455,7 @@ vec4 materialsAt(int i)
     return texelFetch(materials, i);
 }
 uniform int groupCount;
+const float pushSpeed = 1.0;
 struct Sphere {
     vec3 place;
     uint label;
@@ -525,13 +532,24 @@ vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
 {
     return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
+vec3 parted(vec3 d, float reach, int slot, int other)
+{
+    bool coincide = dot(d, d) <= 1e-12 * reach * reach;
+    while (coincide) {
+        uvec2 numbers = uvec2(placesAt(other).w, placesAt(slot).w);
+        if (numbers.x == numbers.y) numbers = uvec2(sphereOf(other), sphereOf(slot));
+        d = directionFrom(numbers.x, numbers.y) * (1e-6 * reach);
+        coincide = false;
+    }
+    return d;
+}
 Pair pairOf(int slot, int other)
 {
     Pair pair;
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
-    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius,
-                               slot < other ? 1.0 : -1.0);
+    float reach = own.radius + pair.sphere.radius;
+    pair.contact = pairContact(parted(pair.apart, reach, slot, other), own.velocity - pair.sphere.velocity, reach);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
@@ -591,7 +609,6 @@ struct Constraint {
     float friction;
 };
 const float overRelaxed = 1.3;
-const float pushSpeed = 1.0;
 float partingSpeed(float depth, float reach, bool loaded)
 {
     float much = loaded ? clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime) : 0.0;

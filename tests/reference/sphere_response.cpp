@@ -100,7 +100,9 @@ class Response {
         for (size_t i = 0; i < spheres_->size(); ++i) {
             Sphere& sphere = (*spheres_)[i];
             sphere.velocity += sphere.weight * (impulses[i] - memory_->loads[i]);
-            sphere.position += sphere.weight * shifts[i];
+            const dvec3 moved = sphere.weight * shifts[i];
+            sphere.position +=
+                moved * std::min(1.0, fastest * settings_.stepTime / (glm::length(moved) + 1e-30));
         }
         remember();
     }
@@ -245,6 +247,8 @@ class Response {
         }
     }
 
+    static constexpr double fastest = 1;  // m/s, at which what overlaps is pushed apart
+
     // m, of what overlaps beyond what may rest so: half a percent.
     static double tooDeep(const Meeting& m) { return m.depth - 0.005 * m.reach; }
 
@@ -274,7 +278,7 @@ class Response {
 
     // u, moved: m/s and m, of the first sphere relative to the second, as all contacts make it.
     void improve(Meeting& m, const dvec3& u, const dvec3& moved) const {
-        constexpr double larger = 1.3, fastest = 1;  // the last in m/s
+        constexpr double larger = 1.3;
         const double along = glm::dot(u, m.normal);
         const double normalStep = m.alone ? 1 : larger, acrossStep = m.alone ? 1 : larger * ofFriction;
         const dvec3 wanted = m.now.impulse + m.normal * (target(m) - along) * (normalStep / m.weight) -

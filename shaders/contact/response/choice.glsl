@@ -60,7 +60,7 @@ PairImpact impactOf(int slot, int other, Sphere sphere)
 {
     vec3 apart = localDifference(own.place, sphere.place, cell);
     return nextImpact(apart, own.velocity - sphere.velocity, own.radius + sphere.radius, straightTime(slot, other, sphere),
-                      restSpeed, slot < other ? 1.0 : -1.0);
+                      restSpeed);
 }
 
 // Whether it is one for the rounds. Where it may be one of many that a molecule has, what would leave too slowly to bounce is left to the

@@ -16,7 +16,6 @@ struct Constraint {
 // An iteration takes a larger step towards several contacts at once than one that is certainly stable without momentum; a contact
 // alone has its impulse at once.
 const float overRelaxed = 1.3;
-const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
 
 // m/s, at which the spheres of a contact are to part: they may still close what is open. A little of what overlaps too much parts what
 // carries something; elsewhere it would be energy from nowhere.

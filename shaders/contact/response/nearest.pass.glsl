@@ -23,9 +23,8 @@ void main()
     float w = own.weight + other.weight;
     vec3 d = localDifference(own.place, other.place, cell);
     float reach = own.radius + other.radius;
-    float side = slot < nearest ? 1.0 : -1.0;
-    PairContact contact = pairContact(d, u, reach, side);
-    PairImpact impact = nextImpact(d, u, reach, stepTime, restSpeed, side);
+    PairContact contact = pairContact(parted(d, reach, slot, nearest), u, reach);
+    PairImpact impact = nextImpact(d, u, reach, stepTime, restSpeed);
     vec2 material = materialOf(own, other);
     vec3 n = impact.happens ? impact.normal : contact.normal;
     float target = impact.happens ? -material.x * impact.speed : max(contact.speed, 0.0);

@@ -17,6 +17,8 @@
 
 uniform int groupCount;
 
+const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
+
 struct Sphere {
     vec3 place;     // m, local (physics/cells.glsl)
     uint label;     // group * 2^26 + molecule
@@ -107,13 +109,26 @@ vec2 weightsBetween(Pair pair, vec3 n, vec2 effective)
     return weightsOf(own, ownBody, n) * effective.x + weightsOf(pair.sphere, pair.body, n) * effective.y;
 }
 
+// Returns d, the way from the centre of another slot's sphere to that of a slot's, m, or where the two coincide a very short one.
+vec3 parted(vec3 d, float reach, int slot, int other)
+{
+    bool coincide = dot(d, d) <= 1e-12 * reach * reach;
+    while (coincide) {  // rare (contact/search/find.pass.glsl)
+        uvec2 numbers = uvec2(placesAt(other).w, placesAt(slot).w);  // molecules leave as a whole
+        if (numbers.x == numbers.y) numbers = uvec2(sphereOf(other), sphereOf(slot));
+        d = directionFrom(numbers.x, numbers.y) * (1e-6 * reach);
+        coincide = false;
+    }
+    return d;
+}
+
 Pair pairOf(int slot, int other)
 {
     Pair pair;
     pair.sphere = sphereAt(other);
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
-    pair.contact = pairContact(pair.apart, own.velocity - pair.sphere.velocity, own.radius + pair.sphere.radius,
-                               slot < other ? 1.0 : -1.0);
+    float reach = own.radius + pair.sphere.radius;
+    pair.contact = pairContact(parted(pair.apart, reach, slot, other), own.velocity - pair.sphere.velocity, reach);
     pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);

@@ -58,6 +58,8 @@ void main()
             putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
         }
     }
+    // where many overlap the outermost would move as fast as all pairs together; what moves others is not pushed alone
+    if (!SPREADS) shift *= min(1.0, pushSpeed * stepTime / max(length(shift) * own.weight, 1e-30));
     if (isStruck(slot)) {
         total.xyz += uintBitsToFloat(impactsAt(slot, 0).xyz);
         shift += uintBitsToFloat(impactsAt(slot, 1).xyz);

@@ -64,7 +64,7 @@ bool isCandidate(int slot)
 // Whether two spheres d apart have met within the last contact step, or passed through each other.
 bool haveMet(vec3 d, float reach, int slot)
 {
-    return nextImpact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed, 1.0).happens;
+    return nextImpact(d, velocityAt(searching) - velocityAt(slot), reach, stepTime, restSpeed).happens;
 }
 
 // Whether a collider holds a sphere that its step has not held: of a rigid body one that is near, of a triangle one that it overlaps.
