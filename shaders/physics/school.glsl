@@ -44,27 +44,26 @@ vec3 backIntoBall(vec3 p, vec3 center, float radius)
     return d * (max(r - radius, 0.0f) / max(r, 1e-20f));
 }
 
-// Returns the unit direction of the wanted velocity, or `forward` where that is zero, made no steeper than the tangent
+// Returns the unit direction of the wanted velocity, or `forward` where that is zero or upright, made no steeper than the tangent
 // `steepest` allows.
 vec3 courseOf(vec3 wanted, vec3 forward, float steepest)
 {
-    float size = sqrt(dot(wanted, wanted));
-    vec3 d = size > 1e-6f ? wanted / size : forward;
-    float level = sqrt(d.x * d.x + d.z * d.z);
-    float most = steepest * max(level, 0.2f);
+    float level = sqrt(wanted.x * wanted.x + wanted.z * wanted.z);
+    vec3 d = level > 1e-6f ? wanted / level : forward;
+    float most = steepest * sqrt(d.x * d.x + d.z * d.z);
     d.y = clamp(d.y, -most, most);
     return d / sqrt(max(dot(d, d), 1e-20f));
 }
 
-// Returns the turn from one unit vector to another, its axis times its angle in rad; about `fallback` where they are opposite.
-vec3 turnBetween(vec3 from, vec3 to, vec3 fallback)
+// Returns the turn from one unit vector to another, its axis times its angle in rad: about the vertical and in steepness at once, so that
+// it is on its way no steeper than the steeper of the two. The shortest turn to a course behind would lead over the top.
+vec3 turnBetween(vec3 from, vec3 to)
 {
-    vec3 axis = cross(from, to);
-    float sine = sqrt(dot(axis, axis));
-    float cosine = dot(from, to);
-    float angle = atan(sine, cosine);
-    bool opposite = sine < 1e-3f && cosine < 0.0f;
-    return opposite ? fallback * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
+    float fromLevel = sqrt(from.x * from.x + from.z * from.z);
+    float toLevel = sqrt(to.x * to.x + to.z * to.z);
+    float yaw = atan(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z + 1e-20f);
+    float pitch = atan(to.y, toLevel + 1e-20f) - atan(from.y, fromLevel + 1e-20f);
+    return vec3(0.0f, yaw, 0.0f) + vec3(-from.z, 0.0f, from.x) * (pitch / max(fromLevel, 1e-6f));
 }
 
 // A sine whose frequency is a multiple of 1/256 rad/s, so that all such sines repeat after 512 pi s (wanderPeriod of

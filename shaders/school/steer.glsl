@@ -105,7 +105,7 @@ void steer(int body, int slot, vec4 earlier, out vec4 steering[STEERING_ELEMENTS
     // Steering along the body changes its speed, steering across it turns it.
     vec3 wanted = forward * max(speed, speeds.x) + steered * reaction;
     vec3 course = courseOf(wanted, forward, habits.x);
-    vec3 turning = atMost(turnBetween(forward, course, upper) / reaction, habits.y);
+    vec3 turning = atMost(turnBetween(forward, course) / reaction, habits.y);
     float wantedSpeed = clamp(speeds.y + dot(steered, forward) * (2.0 * reaction), speeds.x, speeds.z);
     // un-damping along the body, for what the tail does not give
     float push = clamp((wantedSpeed - speed) / reaction + drag * wantedSpeed, -speeds.w, speeds.w) * muscles.z;

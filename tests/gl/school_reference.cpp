@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace shoal::test {
 
@@ -52,19 +53,17 @@ dvec3 backHome(const School& school, const dvec3& place) {
     return r > home.radius ? home.strength * (r - home.radius) * d / r : dvec3(0);
 }
 
-// Into the direction that is wanted, no steeper than allowed.
-dvec3 courseOf(const dvec3& wanted, double steepest) {
-    dvec3 d = glm::normalize(wanted);
-    const double most = std::tan(steepest) * std::max(std::hypot(d.x, d.z), 0.2);
-    d.y = std::clamp(d.y, -most, most);
-    return glm::normalize(d);
+double steepnessOf(const dvec3& v) {
+    return std::atan2(v.y, std::hypot(v.x, v.z));
 }
 
-dvec3 turnTo(const dvec3& from, const dvec3& to, const dvec3& otherwise) {
-    const dvec3 axis = glm::cross(from, to);
-    const double angle = std::acos(std::clamp(glm::dot(from, to), -1.0, 1.0));
-    if (glm::length(axis) < 1e-3) return glm::dot(from, to) < 0 ? otherwise * angle : axis;
-    return glm::normalize(axis) * angle;
+// The turn from one unit vector to the direction that is wanted, no steeper than allowed: about the vertical,
+// and in steepness.
+dvec3 turnTo(const dvec3& from, const dvec3& wanted, double steepest) {
+    const double pitch = std::clamp(steepnessOf(wanted), -steepest, steepest) - steepnessOf(from);
+    const double yaw =
+        std::remainder(std::atan2(wanted.x, wanted.z) - std::atan2(from.x, from.z), 2 * std::numbers::pi);
+    return yaw * dvec3(0, 1, 0) + pitch * glm::normalize(glm::cross(from, dvec3(0, 1, 0)));
 }
 
 }  // namespace
@@ -202,9 +201,7 @@ std::vector<Steered> SchoolReference::steer(size_t group, const SavedState& stat
         const dvec3 steered = glm::mix(earlier, inTurn(urgent, liked, school.acceleration),
                                        1 - std::exp(-duration / school.reaction));
         const dvec3 wanted = body.forward * std::max(speed, school.slowest) + steered * school.reaction;
-        dvec3 turning =
-            atMost(turnTo(body.forward, courseOf(wanted, school.steepest), body.upper) / school.reaction,
-                   school.turn);
+        dvec3 turning = atMost(turnTo(body.forward, wanted, school.steepest) / school.reaction, school.turn);
         const double wantedSpeed =
             std::clamp(school.cruise + glm::dot(steered, body.forward) * 2 * school.reaction, school.slowest,
                        school.fastest);

@@ -212,6 +212,37 @@ TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and al
     CHECK(meanOf(scene, run.simulation, 0).aligned > 0.9);
 }
 
+// Walls, others and wandering ask for any direction.
+TEST_CASE("None swims steeper than it may, in a box for 20 s", "[school]") {
+    if (!canRun()) return;
+    Scene scene = water();
+    scene.groups = {fish("fry", 100, {0.6, 0.3, 0.6})};
+    School& school = *scene.groups[0].school;
+    school.steepest = 0.35;
+    for (int wall = 0; wall < 6; ++wall) {
+        glm::dvec3 inwards(0);
+        inwards[wall / 2] = wall % 2 == 0 ? 1 : -1;
+        const glm::dvec3 half(1, 0.5, 1);
+        scene.colliders.push_back({.name = concat("wall ", wall),
+                                   .shape = PlaneCollider{glm::dvec3(0, 2, 0) - inwards * half, inwards}});
+    }
+    Run run(scene);
+    const SchoolReference reference(scene, run.simulation.plan());
+    double steepest = 0, farthest = 0;
+    for (int frame = 0; frame < 1200; frame += 5) {
+        run.frames(5);
+        for (const SchoolBody& body : reference.bodies(0, run.simulation.save().groups[0])) {
+            steepest = std::max(steepest, std::asin(std::abs(body.forward.y)));
+            const glm::dvec3 off = glm::abs(body.place - glm::dvec3(0, 2, 0));
+            farthest = std::max(farthest, std::max(std::max(off.x, off.z), off.y + 0.5));
+        }
+    }
+    INFO("steepest " << steepest << " rad, at most " << farthest << " m from the middle");
+    CHECK(steepest > 0.9 * school.steepest);  // it is asked for
+    CHECK(steepest < school.steepest + 0.0175);
+    CHECK(farthest < 1);
+}
+
 TEST_CASE("All in the same place part without NaN", "[school]") {
     if (!canRun()) return;
     Scene scene = water();

@@ -187,11 +187,20 @@ TEST_CASE("The rules of a school hold their limits, and none is NaN", "[school]"
         const glm::vec3 course = courseOf(wanted, {1, 0, 0}, 0.5f);
         CHECK(finite(course));
         CHECK(length(course) == Approx(1));
+        CHECK(std::abs(course.y) < 0.5001f * std::hypot(course.x, course.z));
     }
-    const glm::vec3 up(0, 1, 0), ahead(0, 0, 1);
-    CHECK(length(turnBetween(ahead, -ahead, up) - up * 3.14159265f) < 1e-5);
-    CHECK(length(turnBetween(ahead, {1, 0, 0}, up) - up * 1.5707963f) < 1e-5);
-    CHECK(turnBetween(ahead, ahead, up) == glm::vec3(0));
+    const glm::vec3 up(0, 1, 0), ahead(0, 0, 1), behind = glm::normalize(glm::vec3(0.1f, -0.2f, -1));
+    CHECK(length(turnBetween(ahead, -ahead) - up * 3.14159265f) < 1e-5);
+    CHECK(length(turnBetween(ahead, {1, 0, 0}) - up * 1.5707963f) < 1e-5);
+    CHECK(turnBetween(ahead, ahead) == glm::vec3(0));
+    CHECK(finite(turnBetween(up, ahead)));
+    glm::vec3 turned = glm::normalize(glm::vec3(0, 0.3f, 1));
+    const float steepest = turned.y;
+    for (int i = 0; i < 1000; ++i) {
+        turned = glm::normalize(turned + 0.01f * glm::cross(turnBetween(turned, behind), turned));
+        CHECK(std::abs(turned.y) < steepest + 1e-4f);  // it does not turn over the top
+    }
+    CHECK(glm::distance(turned, behind) < 1e-3f);
     for (int i = 0; i < 100; ++i)
         CHECK(std::abs(wanderOf(float(i) * 0.7f, 0.1f, 0.5f, 0.9f)) <= 1);
 }
