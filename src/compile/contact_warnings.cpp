@@ -11,21 +11,23 @@
 
 namespace shoal {
 
-double roundedUp(double value) {
+double upToTwoDigits(double value) {
     const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
     return std::ceil(value / unit) * unit;
 }
 
 namespace {
 
-// How many contact steps a frame would be enough, in words.
+// How many contact steps of a frame are enough, in words: alike ones, of as many substeps each.
 std::string stepsThatHold(const Scene& scene, const Plan& plan, double needed) {
-    const int steps = int(std::ceil(needed));
+    const int substeps = scene.solver.substeps, present = plan.contact.steps;
+    int steps = int(std::ceil(needed));
     if (steps > maxSubsteps)
         return concat("more than the ", maxSubsteps, " substeps of a frame would hold it");
-    return concat(
-        plan.contact.steps < scene.solver.substeps ? "\"steps\" of contact" : "\"substeps\"", " of at least ",
-        steps, plan.contact.steps == 1 ? " hold it" : concat(" instead of ", plan.contact.steps, " hold it"));
+    while (steps < substeps && substeps % steps != 0)
+        ++steps;
+    return concat(present < substeps && steps <= substeps ? "\"steps\" of contact" : "\"substeps\"",
+                  " of at least ", steps, " instead of ", present, " hold it");
 }
 
 // Warns of contact that no group takes part in, and of more steps of it than substeps.
@@ -120,7 +122,7 @@ void warnOfMasses(const Scene& scene, Plan& plan) {
         ++needed;
     plan.warnings.push_back(
         {scene.groups[plan.groups[heavy->group].index].contact->location,
-         concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", roundedUp(ratio),
+         concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", upToTwoDigits(ratio),
                 " times as heavy as of \"", plan.groups[light->group].name,
                 "\": where it lies on that, it sinks in or sways",
                 needed > most
@@ -193,7 +195,7 @@ Fall fallOf(const Scene& scene, const Plan& plan) {
 // Warns of a tall pile that falls so fast that it is driven into itself: an iteration passes the impact of a
 // layer on to the next one alone.
 void warnOfFalls(const Scene& scene, Plan& plan) {
-    constexpr double most = 150;  // layers times diameters that they fall in a contact step
+    constexpr double most = 110;  // layers times diameters that they fall in a contact step
     if (!plan.contact.remembers() || scene.gravity == glm::dvec3(0)) return;
     const Fall fall = fallOf(scene, plan);
     const double gravity = glm::length(scene.gravity);
@@ -203,9 +205,9 @@ void warnOfFalls(const Scene& scene, Plan& plan) {
     if (fall.layers * diameters <= most) return;
     plan.warnings.push_back(
         {fall.contact->location,
-         concat("what falls from the top of the start reaches ", roundedUp(speed), " m/s, ",
-                roundedUp(diameters), " diameters of a sphere in a contact step, and lies ",
-                roundedUp(fall.layers), " spheres high: the lowest are driven into one another; ",
+         concat("what falls from the top of the start reaches ", upToTwoDigits(speed), " m/s, ",
+                upToTwoDigits(diameters), " diameters of a sphere in a contact step, and lies ",
+                upToTwoDigits(fall.layers), " spheres high: the lowest are driven into one another; ",
                 stepsThatHold(scene, plan, plan.contact.steps * fall.layers * diameters / most))});
 }
 

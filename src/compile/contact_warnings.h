@@ -11,6 +11,6 @@ namespace shoal {
 void warnOfContact(const Scene& scene, Plan& plan);
 
 // Up, to two digits.
-double roundedUp(double value);
+double upToTwoDigits(double value);
 
 }  // namespace shoal

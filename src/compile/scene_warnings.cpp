@@ -58,7 +58,8 @@ void warnOfThinColliders(const Scene& scene, const Group& group, const GroupPlan
          concat(names, count > 1 ? " pass" : " passes", " through triangle ", gap->triangle, " of \"",
                 plan.name, "\": its vertices", points.empty() ? "" : " and the spheres on its triangles",
                 " alone touch colliders, and leave a gap of ", gap->radius * scale,
-                " m: a finer molecule, or \"contact\" with \"radius\": ", roundedUp(needed), " holds them")});
+                " m: a finer molecule, or \"contact\" with \"radius\": ", upToTwoDigits(needed),
+                " holds them")});
 }
 
 // Warns of a swimmer that does not lie along +Z or has no muscles; a point has neither.

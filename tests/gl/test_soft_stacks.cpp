@@ -75,8 +75,9 @@ TEST_CASE("a stack of soft cubes rests with the contact steps that a warning nam
         SolverKind solver;
         int substeps;
     };
-    const Stack each = GENERATE(Stack{400, SolverKind::bdf2Xpbd, 4}, Stack{1600, SolverKind::xpbd, 12},
-                                Stack{400, SolverKind::leapfrog, 24}, Stack{400, SolverKind::bdf2Corotated, 4});
+    const Stack each =
+        GENERATE(Stack{400, SolverKind::bdf2Xpbd, 4}, Stack{1600, SolverKind::xpbd, 12},
+                 Stack{400, SolverKind::leapfrog, 24}, Stack{400, SolverKind::bdf2Corotated, 4});
     CAPTURE(each.stiffness, name(each.solver), each.substeps);
     Scene scene = stack(each.stiffness, each.solver, each.substeps);
     if (each.solver == SolverKind::leapfrog) scene.contact.steps = 4;
