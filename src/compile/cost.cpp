@@ -16,7 +16,7 @@ constexpr double gradientNoiseOperations = 8 * 57, curlNoiseOperations = 16 * 14
 // gust (40) and its wind (6); two moments of curl noise (62) and their blend (20). A filtered read of a tile
 // is one fetch.
 constexpr ReadingCost gustFromTile = {46, 1}, curlNoiseFromTile = {82, 2};
-constexpr double undampedSpring = 24, muscle = 9, directionalDrag = 25;
+constexpr double undampedSpring = 24, muscleSpring = 9, directionalDrag = 25;
 constexpr double triangle = 18, vertexNormal = 8;  // of normals
 
 struct FieldCosts {
@@ -68,7 +68,8 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
     if (needs.springs) {
         const double springs =
             double(molecule.springs.size()) * (needs.springDamping ? springOperations : undampedSpring);
-        out.operations += (substeps * solver.evaluations + solver.perFrame) * (springs + muscle * muscles);
+        out.operations +=
+            (substeps * solver.evaluations + solver.perFrame) * (springs + muscleSpring * muscles);
     }
     // a stage evaluates all of the motion
     const double motions = std::max(1, solver.tableau.stages);
