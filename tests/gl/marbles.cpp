@@ -126,15 +126,19 @@ Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale)
 
 std::vector<reference::Sphere> statesOf(const Simulation& simulation) {
     std::vector<reference::Sphere> out;
+    int molecules = 0;
     for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
         const Snapshot snapshot = simulation.snapshot(g);
+        const size_t vertices = size_t(simulation.plan().groups[g].vertexCount);
         for (size_t i = 0; i < snapshot.positions.size(); ++i) {
             reference::Sphere sphere;
             sphere.position = snapshot.positions[i];
             sphere.velocity = snapshot.velocities[i];
-            sphere.weight = double(simulation.plan().contact.groups[g].shapes[0].x);
+            sphere.weight = double(simulation.plan().contact.groups[g].shapes[i % vertices].x);
+            sphere.molecule = molecules + int(i / vertices);
             out.push_back(sphere);
         }
+        molecules += int(snapshot.positions.size() / vertices);
     }
     return out;
 }

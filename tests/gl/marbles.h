@@ -42,7 +42,7 @@ class Clusters {
 };
 // Quads strewn over a box, with contact.
 Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale = {1, 1});
-// Positions and velocities of all groups of points, in their order.
+// Positions and velocities of the vertices of all groups, in their order.
 std::vector<reference::Sphere> statesOf(const Simulation& simulation);
 glm::dvec3 momentum(const std::vector<reference::Sphere>& spheres);
 
