@@ -2,6 +2,7 @@
 #include "compile/plan.h"
 #include "molecule/molecule_file.h"
 #include "scene/collider_kinds.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 
 using namespace shoal;
@@ -41,4 +42,21 @@ TEST_CASE("a tall pile that falls too fast for its contact steps is warned of", 
     CHECK_THAT(warningsOfPile(160, 12), !Contains("spheres high"));
     CHECK_THAT(warningsOfPile(40, 4), !Contains("spheres high"));
     CHECK_THAT(warningsOfPile(160, 4, 9), !Contains("spheres high"));  // it falls at 1.1 m/s
+}
+
+TEST_CASE("molecules that spheres cannot close are refused", "[warnings]") {
+    using Catch::Matchers::Contains;
+    const auto scene = [](const char* molecule, const char* contact) {
+        return parseScene(
+            concat(R"({"format": "shoal-scene-1", "groups": [{"name": "a", "molecule": ")", SHOAL_SOURCE_DIR,
+                   "/molecules/", molecule, R"(", "place": {"on": "list", "items": [{}]}, "contact": {)",
+                   contact, "}}]}"),
+            "s.json");
+    };
+    CHECK_THROWS_WITH(scene("point.json", R"("closed": true)"),
+                      Contains("the molecule has no triangles (at $.groups[0].contact.closed)"));
+    CHECK_THROWS_WITH(scene("leaf.json", R"("closed": true, "radius": 0.0009)"),
+                      Contains("expected a radius of at least 0.000956"));
+    CHECK_NOTHROW(scene("leaf.json", R"("closed": true, "radius": 0.001)"));
+    CHECK_NOTHROW(scene("leaf.json", R"("closed": true)"));
 }
