@@ -1,8 +1,6 @@
 #include "compile/scene_warnings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <optional>
 
 #include "compile/contact_warnings.h"

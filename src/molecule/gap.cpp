@@ -1,7 +1,9 @@
 #include "molecule/gap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -10,6 +12,15 @@ namespace shoal {
 namespace {
 
 constexpr int mostCuts = 32;  // of an edge, by a lattice over its triangle
+
+// Each from the lower of its vertices to the higher.
+std::array<std::pair<int, int>, 3> edgesOf(const Triangle& t) {
+    return {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)};
+}
+
+double lengthOf(const Molecule& molecule, int a, int b) {
+    return glm::distance(molecule.vertices[size_t(a)].position, molecule.vertices[size_t(b)].position);
+}
 
 glm::dvec3 placeOf(const Molecule& molecule, const TrianglePoint& point) {
     glm::dvec3 out(0);
@@ -20,9 +31,7 @@ glm::dvec3 placeOf(const Molecule& molecule, const TrianglePoint& point) {
 
 // Appends the points along edge ab, without its ends.
 void addEdge(const Molecule& molecule, int a, int b, double radius, std::vector<TrianglePoint>& points) {
-    const double length =
-        glm::distance(molecule.vertices[size_t(a)].position, molecule.vertices[size_t(b)].position);
-    const int cuts = int(std::ceil(length / (2 * radius)));
+    const int cuts = int(std::ceil(lengthOf(molecule, a, b) / (2 * radius)));
     for (int i = 1; i < cuts; ++i)
         points.push_back({{a, b, b}, {cuts - i, i, 0}});
 }
@@ -31,13 +40,12 @@ void addEdge(const Molecule& molecule, int a, int b, double radius, std::vector<
 // tenth smaller. `around`: the spheres on its edges.
 void addInner(const Molecule& molecule, const Triangle& t, double radius, std::vector<glm::dvec3> around,
               std::vector<TrianglePoint>& points) {
-    constexpr int cuts = mostCuts;
     for (;;) {
         double largest = 2 * 0.9 * radius;
         std::optional<TrianglePoint> found;
-        for (int i = 1; i < cuts; ++i) {
-            for (int k = 1; k + i < cuts; ++k) {
-                const TrianglePoint point{{t.a, t.b, t.c}, {cuts - i - k, i, k}};
+        for (int i = 1; i < mostCuts; ++i) {
+            for (int k = 1; k + i < mostCuts; ++k) {
+                const TrianglePoint point{{t.a, t.b, t.c}, {mostCuts - i - k, i, k}};
                 const glm::dvec3 place = placeOf(molecule, point);
                 double nearest = 1e300;
                 for (size_t s = 0; s < around.size() && nearest > largest; ++s)
@@ -66,11 +74,11 @@ std::vector<TrianglePoint> closingPoints(const Molecule& molecule, double radius
     std::vector<TrianglePoint> out;
     std::set<std::pair<int, int>> edges;
     for (const Triangle& t : molecule.triangles)
-        for (const auto& [a, b] : {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)})
+        for (const auto& [a, b] : edgesOf(t))
             if (edges.emplace(a, b).second) addEdge(molecule, a, b, radius, out);
     for (const Triangle& t : molecule.triangles) {
         std::vector<TrianglePoint> border;
-        for (const auto& [a, b] : {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
+        for (const auto& [a, b] : edgesOf(t)) {
             border.push_back({{a, b, b}, {1, 0, 0}});
             border.push_back({{a, b, b}, {0, 1, 0}});
             addEdge(molecule, a, b, radius, border);
@@ -85,12 +93,9 @@ std::vector<TrianglePoint> closingPoints(const Molecule& molecule, double radius
 
 double leastClosingRadius(const Molecule& molecule) {
     double longest = 0;
-    for (const Triangle& t : molecule.triangles) {
-        const glm::dvec3 &a = molecule.vertices[size_t(t.a)].position,
-                         &b = molecule.vertices[size_t(t.b)].position,
-                         &c = molecule.vertices[size_t(t.c)].position;
-        longest = std::max({longest, glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-    }
+    for (const Triangle& t : molecule.triangles)
+        for (const auto& [a, b] : edgesOf(t))
+            longest = std::max(longest, lengthOf(molecule, a, b));
     return longest / mostCuts;
 }
 
