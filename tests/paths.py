@@ -1,18 +1,28 @@
 #!/usr/bin/env python3
-"""Fails when a document or a comment names a source file or a document of the project that is not there.
+"""Fails when a document or a comment names a file or a folder of the project that is not there.
 
-A name with a folder must be a path from the root, from src, shaders, tests or docs, or from the file that names it.
-A name alone must be some file's. Files in "generated" exist in memory only: some source must make them.
+Looked at are names of source files and documents, and outside blocks of code also whatever begins with a folder of the
+project (tests/gl), what stands in backquotes and begins with a folder in one of those (`scene/json`), and links. Stars
+are a shell's; what ends in a slash must be a folder.
+A name with a folder must be a path from the root, from one of its folders or from the file that names it, or a scene as
+`shoal scenes` lists it; a link is a path from its file. A name alone must be some file's. Files in "generated" exist in
+memory only: some source must make them.
 """
 import pathlib
 import re
 import sys
 
 root = pathlib.Path(__file__).resolve().parent.parent
-endings = r"glsl|vert|frag|comp|h|cpp|cmake|md|py|sh"
+folders = ["src", "shaders", "tests", "docs", "cmake", "models", "molecules"]
+roots = [root] + [root / folder for folder in folders]
+within = sorted({f.name for folder in folders for f in (root / folder).iterdir() if f.is_dir()})
+endings = r"glsl|vert|frag|comp|h|cpp|cmake|md|py|sh|yml"
 named = re.compile(r"(?<![\w./<*$-])((?:[\w.-]+/)*[\w-]+\.(?:%s))(?![\w/]|\.\w)" % endings)
-# What is not ours to hold: headers of others, a placeholder, an example's sources.
-foreign = re.compile(r"GL/.*|folder/file\.glsl|mine\.cpp")
+below = re.compile(r"(?<![\w./<*$-])((?:%s)/[\w./*-]*)(?![\w/*{<$])" % "|".join(folders))
+quoted = re.compile(r"`((?:%s)/[\w./*-]*)`" % "|".join(within))
+linked = re.compile(r"\]\((?!\w+:)([^)\s#]+)")
+# What is not ours to hold: headers of others, placeholders, an example's sources.
+foreign = re.compile(r"GL/.*|folder/file\.glsl|mine\.cpp|models/mine(?:/.*)?|src/NAME")
 
 
 def comment(line, mark):
@@ -22,32 +32,57 @@ def comment(line, mark):
 
 
 def texts(file):
-    mark = "#" if file.suffix in (".cmake", ".py", ".sh") else "//"
+    """Each line's number and text, and whether it stands outside blocks of code."""
+    document = file.suffix in (".md", ".yml")
+    mark = "//" if re.fullmatch(r"\.(glsl|vert|frag|comp|h|cpp)", file.suffix) else "#"
+    fenced = False
     for number, line in enumerate(file.read_text(encoding="utf-8").split("\n"), 1):
-        yield number, line if file.suffix == ".md" else comment(line, mark)
+        fenced ^= document and line.startswith("```")
+        prose = not fenced and not (file.suffix == ".md" and line.startswith("    "))
+        if text := line if document else comment(line, mark):
+            yield number, text, prose
+
+
+def is_there(path, bases):
+    if "*" in path:
+        return any(any(base.glob(path)) for base in bases)
+    return any((base / path).is_dir() if path.endswith("/") else (base / path).exists() for base in bases)
+
+
+def missing(file, text, prose, names, generated):
+    """The names in a line of what is not there."""
+    bases = roots + [file.parent]
+    for path in named.findall(text):
+        if path.startswith("generated/"):
+            there = f'"{path}"' in generated
+        else:
+            there = is_there(path, bases) if "/" in path else path in names
+        if not there:
+            yield path
+    if prose:
+        yield from (path for path in map(lambda path: path.rstrip(".-"), below.findall(text))
+                    if not is_there(path, [root, file.parent]))
+        yield from (path for path in quoted.findall(text)
+                    if not is_there(path, bases) and not is_there(path + ".scene.json", [root / "models"]))
+        if file.suffix == ".md":
+            yield from (path for path in linked.findall(text) if not is_there(path, [file.parent]))
 
 
 def main():
-    folders = ["src", "shaders", "tests", "docs", "cmake", "models", "molecules"]
-    files = [f for folder in folders for f in (root / folder).rglob("*") if f.is_file()] + list(root.glob("*.md"))
+    files = [f for folder in folders + [".github", ".ci"] for f in (root / folder).rglob("*") if f.is_file()]
+    files += [f for f in root.iterdir() if f.suffix == ".md" or f.name in ("CMakeLists.txt", "dev")]
     if len(files) < 500:
         sys.exit(f"only {len(files)} files found below {root}")
     names = {f.name for f in files}
     generated = "\n".join(f.read_text(encoding="utf-8") for f in files if f.suffix in (".cpp", ".h"))
     failures = []
     for file in files:
-        if not re.fullmatch(r"\.(%s)" % endings, file.suffix) or file.name == "CHANGELOG.md":
+        with_names = re.fullmatch(r"\.(%s)" % endings, file.suffix) or file.name in ("CMakeLists.txt", "dev", "run")
+        if not with_names or file.name == "CHANGELOG.md":
             continue
-        for number, text in texts(file):
-            for path in named.findall(text):
-                if path.startswith("generated/"):
-                    there = f'"{path}"' in generated
-                elif "/" in path:
-                    bases = [root, file.parent] + [root / f for f in ("src", "shaders", "tests", "docs")]
-                    there = any((base / path).exists() for base in bases)
-                else:
-                    there = path in names
-                if not there and not foreign.fullmatch(path):
+        for number, text, prose in texts(file):
+            for path in dict.fromkeys(missing(file, text, prose, names, generated)):
+                if not foreign.fullmatch(path):
                     failures.append(f"{file.relative_to(root)}:{number}: names {path}, which is not there")
     print("\n".join(failures))
     sys.exit(1 if failures else 0)
