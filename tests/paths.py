@@ -2,8 +2,8 @@
 """Fails when a document or a comment names a file or a folder of the project that is not there.
 
 Looked at are names of source files and documents, and outside blocks of code also whatever begins with a folder of the
-project (tests/gl), what stands in backquotes and begins with a folder in one of those (`scene/json`), and links. Stars
-are a shell's; what ends in a slash must be a folder.
+project (tests/gl), what stands in backquotes and begins with a folder in one of those (`scene/json`), lists of bare
+names in backquotes, most of which are such folders, and links. Stars are a shell's; what ends in a slash must be a folder.
 A name with a folder must be a path from the root, from one of its folders or from the file that names it, or a scene as
 `shoal scenes` lists it; a link is a path from its file. A name alone must be some file's. Files in "generated" exist in
 memory only: some source must make them.
@@ -15,11 +15,13 @@ import sys
 root = pathlib.Path(__file__).resolve().parent.parent
 folders = ["src", "shaders", "tests", "docs", "cmake", "models", "molecules"]
 roots = [root] + [root / folder for folder in folders]
-within = sorted({f.name for folder in folders for f in (root / folder).iterdir() if f.is_dir()})
+rooms = {folder: {f.name for f in (root / folder).iterdir() if f.is_dir()} for folder in folders}
+within = sorted(set().union(*rooms.values()))
 endings = r"glsl|vert|frag|comp|h|cpp|cmake|md|py|sh|yml"
 named = re.compile(r"(?<![\w./<*$-])((?:[\w.-]+/)*[\w-]+\.(?:%s))(?![\w/]|\.\w)" % endings)
 below = re.compile(r"(?<![\w./<*$-])((?:%s)/[\w./*-]*)(?![\w/*{<$])" % "|".join(folders))
 quoted = re.compile(r"`((?:%s)/[\w./*-]*)`" % "|".join(within))
+listed = re.compile(r"`[\w-]+`(?:(?:, and |, | and | or )`[\w-]+`){3,}")
 linked = re.compile(r"\]\((?!\w+:)([^)\s#]+)")
 # What is not ours to hold: headers of others, placeholders, an example's sources.
 foreign = re.compile(r"GL/.*|folder/file\.glsl|mine\.cpp|models/mine(?:/.*)?|src/NAME")
@@ -49,6 +51,15 @@ def is_there(path, bases):
     return any((base / path).is_dir() if path.endswith("/") else (base / path).exists() for base in bases)
 
 
+def strangers(text):
+    """In lists of four or more bare names of which three quarters are folders of one folder: the others."""
+    for names in (re.findall(r"`([\w-]+)`", found) for found in listed.findall(text)):
+        for inside in rooms.values():
+            others = [name for name in names if name not in inside]
+            if 4 * len(others) <= len(names):
+                yield from others
+
+
 def missing(file, text, prose, names, generated):
     """The names in a line of what is not there."""
     bases = roots + [file.parent]
@@ -64,6 +75,7 @@ def missing(file, text, prose, names, generated):
                     if not is_there(path, [root, file.parent]))
         yield from (path for path in quoted.findall(text)
                     if not is_there(path, bases) and not is_there(path + ".scene.json", [root / "models"]))
+        yield from strangers(text)
         if file.suffix == ".md":
             yield from (path for path in linked.findall(text) if not is_there(path, [file.parent]))
 
