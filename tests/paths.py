@@ -6,7 +6,7 @@ project (tests/gl), what stands in backquotes and begins with a folder in one of
 names in backquotes, most of which are such folders, and links. Stars are a shell's; what ends in a slash must be a folder.
 A name with a folder must be a path from the root, from one of its folders or from the file that names it, or a scene as
 `shoal scenes` lists it; a link is a path from its file. A name alone must be some file's. Files in "generated" exist in
-memory only: some source must make them.
+memory only: some source must make them. docs/index.md leads to every document.
 """
 import pathlib
 import re
@@ -96,6 +96,10 @@ def main():
             for path in dict.fromkeys(missing(file, text, prose, names, generated)):
                 if not foreign.fullmatch(path):
                     failures.append(f"{file.relative_to(root)}:{number}: names {path}, which is not there")
+    index = root / "docs/index.md"
+    led = {(index.parent / path).resolve() for path in linked.findall(index.read_text(encoding="utf-8"))} | {index}
+    failures += [f"docs/index.md: does not lead to {file.relative_to(root)}" for file in files
+                 if file.suffix == ".md" and index.parent in file.parents and file not in led]
     print("\n".join(failures))
     sys.exit(1 if failures else 0)
 
