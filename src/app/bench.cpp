@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "app/bench.h"
-#include "app/bullet_baseline.h"
 #include "app/commands.h"
 #include "app/plot.h"
 #include "core/printable.h"
@@ -20,26 +19,6 @@ namespace shoal::app {
 using namespace bench;
 
 namespace {
-
-class BulletRunner final : public BenchRunner {
-  public:
-    BulletRunner(const BenchCase& benchCase, const Molecule& molecule)
-        : benchCase_(benchCase), molecule_(molecule) {
-        restart();
-    }
-    void restart() override {
-        bullet_ = makeBullet(molecule_, benchCase_.count, benchCase_.subject == Subject::bulletMerged);
-    }
-    void frame() override {
-        for (int i = 0; i < benchCase_.substeps; ++i)
-            bullet_->frame(1.0 / 60 / benchCase_.substeps);
-    }
-
-  private:
-    BenchCase benchCase_;
-    const Molecule& molecule_;
-    std::unique_ptr<BulletBaseline> bullet_;
-};
 
 // Everything is asked for by its name: cases, and these beside them.
 constexpr const char *errors = "errors", *starts = "start-up", *passes = "passes";
@@ -154,7 +133,7 @@ BenchSession::BenchSession(const Options& options, double usual, double quick)
     : context(hiddenContext(options)),
       contextSeconds(measure::secondsSince(start)),
       machine(measuredOn(context)),
-      device{&context, drawMaker(context), machine.cores, {}, false, !context.info().software} {
+      device{&context, drawMaker(context), machine.cores, false, !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
 }
 
@@ -188,10 +167,6 @@ BenchReport measureSpeeds(const Options& options, BenchSession& session) {
     if (!info.computeShaders)
         std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has " << info.version
                   << ": its cases are left out\n";
-    if (bulletAvailable())
-        session.device.makeBullet = [](const BenchCase& benchCase, const Molecule& molecule) {
-            return std::make_unique<BulletRunner>(benchCase, molecule);
-        };
     measureAll(wanted, molecules, session.device, session.schedule, report);
     return report;
 }

@@ -117,10 +117,9 @@ void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* man
 }  // namespace
 
 const char* name(Subject subject) {
-    static constexpr const char* names[] = {
-        "fused",        "fragments",     "ping-pong",           "AVX-512",
-        "AVX2",         "scalar",        "copy, buffer",        "copy, kernel",
-        "copy, memory", "multiply-adds", "Bullet, soft bodies", "Bullet, merged"};
+    static constexpr const char* names[] = {"fused",        "fragments",    "ping-pong",    "AVX-512",
+                                            "AVX2",         "scalar",       "copy, buffer", "copy, kernel",
+                                            "copy, memory", "multiply-adds"};
     return names[size_t(subject)];
 }
 const char* name(Wind wind) {
@@ -144,9 +143,6 @@ bool isCopy(Subject subject) {
 bool needsCompute(Subject subject) {
     return subject == Subject::fused || subject == Subject::kernelCopy || subject == Subject::multiplyAdd;
 }
-bool isBullet(Subject subject) {
-    return subject == Subject::bulletBodies || subject == Subject::bulletMerged;
-}
 bool isOnDevice(Subject subject) {
     return isPath(subject) || subject == Subject::bufferCopy || subject == Subject::kernelCopy ||
            subject == Subject::multiplyAdd;
@@ -165,13 +161,8 @@ std::string grouped(int count) {
 
 std::vector<BenchCase> benchCases(bool quick) {
     std::vector<BenchCase> out;
-    BenchCase base = grouped("quad", "quads", 1024);
-    addSize(out, base, true);
-    for (const Subject subject : {Subject::bulletBodies, Subject::bulletMerged}) {
-        base.subject = subject;
-        add(out, base, name(subject));
-    }
-    base = grouped("quad", "quads", 16384);
+    addSize(out, grouped("quad", "quads", 1024), true);
+    BenchCase base = grouped("quad", "quads", 16384);
     addSize(out, base, true);
     addLeapfrog(out, base);
     base = grouped("quad", "quads", 131072);

@@ -20,20 +20,17 @@ enum class Subject {
     avx512,  // baselines: bench/baseline.h
     avx2,
     scalar,
-    bufferCopy,    // the state, by the device's own command
-    kernelCopy,    // the state, by a compute kernel that does nothing else
-    memoryCopy,    // the baseline's state, by memcpy on all cores
-    multiplyAdd,   // a compute kernel of arithmetic alone
-    bulletBodies,  // Bullet's soft bodies, one a molecule
-    bulletMerged,  // all molecules as one of them
+    bufferCopy,   // the state, by the device's own command
+    kernelCopy,   // the state, by a compute kernel that does nothing else
+    memoryCopy,   // the baseline's state, by memcpy on all cores
+    multiplyAdd,  // a compute kernel of arithmetic alone
 };
-const char* name(Subject subject);  // "fused", "fragments", "ping-pong", "AVX-512", …
-bool isPath(Subject subject);       // fused, fragments or ping-pong
-Path pathOf(Subject subject);       // of those
-bool isBaseline(Subject subject);   // AVX-512, AVX2 or scalar
-bool isCopy(Subject subject);       // moves the state and does nothing else
-Simd simdOf(Subject subject);       // of a baseline
-bool isBullet(Subject subject);
+const char* name(Subject subject);   // "fused", "fragments", "ping-pong", "AVX-512", …
+bool isPath(Subject subject);        // fused, fragments or ping-pong
+Path pathOf(Subject subject);        // of those
+bool isBaseline(Subject subject);    // AVX-512, AVX2 or scalar
+bool isCopy(Subject subject);        // moves the state and does nothing else
+Simd simdOf(Subject subject);        // of a baseline
 bool isOnDevice(Subject subject);    // else the processor itself does the work
 bool needsCompute(Subject subject);  // OpenGL 4.3
 

@@ -228,8 +228,6 @@ std::string reasonToLeaveOut(const BenchCase& benchCase, const Molecule& molecul
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
     if (isBaseline(benchCase.subject) && !available(simdOf(benchCase.subject)))
         return "this processor or build lacks the instructions";
-    if (isBullet(benchCase.subject) && !device.makeBullet)
-        return "not built with Bullet (apt: libbullet-dev)";
     if (benchCase.drawn && !device.makeDraw) return "nothing to draw with";
     const auto bytes = int64_t(sideBytes(benchCase, molecule));
     const int64_t texels = bytes / int64_t(sizeof(glm::vec4));
@@ -248,7 +246,6 @@ std::unique_ptr<BenchRunner> makeRunner(const BenchCase& benchCase, const Molecu
         const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(benchCase.count);
         return std::make_unique<MemoryCopy>(bytes, device.cores);
     }
-    if (isBullet(benchCase.subject)) return device.makeBullet(benchCase, molecule);
     if (benchCase.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
     const size_t bytes = sideBytes(benchCase, molecule);
     if (benchCase.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);

@@ -21,17 +21,12 @@ namespace shoal::bench {
 using Draw = std::function<void(const StateView&)>;
 using DrawMaker = std::function<Draw(const Scene&, const Plan&)>;
 
-class BenchRunner;
-// Runs Bullet's soft bodies; made by who is built with Bullet.
-using BulletMaker = std::function<std::unique_ptr<BenchRunner>(const BenchCase&, const Molecule&)>;
-
 struct BenchDevice {
     gpu::Context* context = nullptr;
-    DrawMaker makeDraw = {};      // null: cases with a picture are left out
-    int cores = 1;                // threads of the baselines
-    BulletMaker makeBullet = {};  // null: its cases are left out
-    bool goesOn = false;          // what the driver refuses is the failure of a case, not the end
-    bool ownTimes = false;        // the device's own times are asked for as well; not of a CPU rasteriser
+    DrawMaker makeDraw = {};  // null: cases with a picture are left out
+    int cores = 1;            // threads of the baselines
+    bool goesOn = false;      // what the driver refuses is the failure of a case, not the end
+    bool ownTimes = false;    // the device's own times are asked for as well; not of a CPU rasteriser
 };
 
 // Where all cases of one molecule and count begin: some way into the fall, so that there are contacts.
