@@ -55,7 +55,6 @@ class Bar {
 AccuracyOptions accuracyOptions(const Options& options) {
     AccuracyOptions out{.duration = options.duration,
                         .molecules = options.molecules,
-                        .fine = options.fine,
                         .solvers = options.solvers,
                         .samplings = options.samplings,
                         .seconds = options.seconds};
@@ -156,7 +155,6 @@ int measureCommand(const Options& options) {
     // known before the measuring, not after it
     if (!options.plot.empty()) needGnuplot(options.plot);
     if (!options.csv.empty()) checkWritable(options.csv);
-    if (!options.report.empty()) return measureReport(options);
     const Scene scene = readScene(options.files.front(), options);
     tellWarnings(scene.warnings);
     gpu::Context context(hiddenContext(options));

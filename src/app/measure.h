@@ -2,10 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "app/commands.h"
 #include "app/options.h"
@@ -13,7 +10,6 @@
 #include "gpu/context.h"
 #include "measure/accuracy.h"
 #include "measure/calibrate.h"
-#include "measure/report_scenes.h"
 
 namespace shoal::app {
 
@@ -46,36 +42,5 @@ measure::Calibration calibrated(const Options& options, gpu::Context& context, L
 
 // Chooses and sweeps, with progress on standard error.
 MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);
-
-// `shoal measure --report`.
-int measureReport(const Options& options);
-
-// ---- Reports read again
-// Reads what `shoal measure --json` wrote, so that a report goes on where it was ended.
-
-// Where and how a scene was measured: what is measured again where it differs.
-struct MeasuredWith {
-    std::string processor, renderer, context, opengl;
-    int cores = 1;
-    std::string path;  // "fused"; empty: any
-    std::string scene;
-    double frameRate = 60, duration = 1;
-    double target = 1e-3;
-    std::vector<std::pair<int, int>> molecules;  // of each group: measured, timed
-    std::vector<std::pair<int, int>> shapes;     // of each group: vertices, springs
-    std::set<std::string> solvers, samplings;
-};
-
-struct Measured {
-    measure::ReportEntry entry;
-    MeasuredWith conditions;
-};
-
-// The points, why there are no errors, and what was chosen (without candidates). Nothing: there is no such
-// file, or none of this version.
-std::optional<Measured> readMeasured(const std::string& file);
-
-// The first thing that differs, as "the processor"; empty: nothing.
-std::string difference(const MeasuredWith& found, const MeasuredWith& wanted);
 
 }  // namespace shoal::app

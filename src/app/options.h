@@ -96,9 +96,8 @@ struct Options : RunRequest {
     std::vector<FieldSampling> samplings;  // empty: all that differ
     double duration = 1;                   // s of simulated time
     int molecules = 8;                     // of each group, whose error is measured
-    bool fine = false;                     // steps by sqrt 2
     std::string csv;                       // a file
-    std::string report;                    // folder: the report scenes instead of a file; bench: a file
+    std::string report;                    // bench: a file
 
     // field (`only`, `capture`, `width` and `height` as above)
     struct Field {

@@ -123,23 +123,13 @@ void addMeasure(CLI::App& command, Options& options) {
              1024)
         ->capture_default_str();
     addSeconds(command, options, "About how long to measure; leaves out what is dearest");
-    command.add_flag("--fine", options.fine, "Steps by the square root of 2 instead of 2");
     section(command, reports);
     addFile(command, "--csv", options.csv, "Every point as a row of this file");
     addPlot(command, options, "Error against time (.svg or .png)");
-    command
-        .add_option("--report", options.report,
-                    "Measures the report's own scenes into this folder, and goes on where it was ended")
-        ->type_name("FOLDER");
-    command.add_option("--only", options.only,
-                       "With --report: scenes with this in their name, such as leaf-fall");
     section(command, ofScene);
     addCountAndSeed(command, options);
     addPath(command, options);
     addContext(command, options);
-    // The report writes files of its own, and its scenes have their own times and seeds.
-    excludes(command, "--report", {"--json", "--csv", "--plot", "--duration", "--seed"});
-    needs(command, "--only", "--report");
 }
 
 FieldSampling samplingOf(const std::string& word) {
@@ -152,8 +142,8 @@ FieldSampling samplingOf(const std::string& word) {
 }
 
 void finishMeasure(Options& options) {
-    if (options.command == measureCommand && options.files.empty() == options.report.empty())
-        throw Error("measure: expected a scene file, or --report and a folder");
+    if (options.command == measureCommand && options.files.empty())
+        throw Error("measure: expected a scene file");
     finishBench(options);
 }
 

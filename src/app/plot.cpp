@@ -292,57 +292,6 @@ const char* axes =
     "set mytics 10\n"
     "set grid xtics ytics linetype 1 linecolor rgb '#D8D8D8' linewidth 0.6\n";
 
-// The key of a grid: every solver that appears, in a panel of its own.
-std::string legend(const std::vector<AccuracyPanel>& panels) {
-    std::set<Method> methods;
-    for (const AccuracyPanel& panel : panels)
-        for (const AccuracyPoint& point : panel.points)
-            if (drawn(point)) methods.insert(point.method);
-    Curves curves;
-    curves.add("NaN title 'Pareto front' with lines linewidth 5 linecolor rgb '#F3E3A1'");
-    for (const Method& method : methods)
-        curves.add(concat("NaN title ", quoted(measure::name(method)), marked(1.6, 0.6, method)));
-    return "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\nunset logscale\n"
-           "set xrange [0:1]\nset yrange [0:1]\n"
-           "set key center center horizontal Left reverse samplen 2.5 width 1 maxrows 7 font ',10'\n" +
-           curves.take();
-}
-
-std::string gridScript(const std::string& output, const std::string& title, int columns,
-                       const std::vector<AccuracyPanel>& panels) {
-    const int rows = (int(panels.size()) + columns - 1) / columns;
-    constexpr int cell = 300, head = 46, foot = 150;
-    const int width = cell * columns + 60, height = cell * rows + head + foot;
-    std::ostringstream out;
-    out << plotStart(output, width, height, 11) << "set multiplot\n"
-        << "set label 1 " << quoted(title) << " at screen 0.5," << 1 - 0.45 * head / height
-        << " center font ',15' noenhanced\n"
-        << axes << "set xtics add ('' 10, '' 1e4, '' 1e6)\nunset key\n";
-    Limits all;
-    for (const AccuracyPanel& panel : panels)
-        add(all, panel.points);
-    if (!all.any()) return out.str();
-    out << ranges(all);
-    Panels script(true);
-    for (size_t i = 0; i < panels.size(); ++i) {
-        const int row = int(i) / columns, column = int(i) % columns;
-        const std::string plot = script.panel(panels[i]);
-        if (plot.empty()) continue;
-        out << "set origin " << (column * cell + 40.0) / width << ","
-            << 1 - (head + (row + 1.0) * cell) / height << "\nset size " << double(cell) / width << ","
-            << double(cell) / height << "\nset lmargin 7\nset rmargin 1\nset tmargin 2\nset bmargin 3\n"
-            << "set title " << quoted(panels[i].title) << " noenhanced offset 0,-0.6\n"
-            << (column == 0 ? "set ylabel 'relative error' offset 1.5\n" : "unset ylabel\n")
-            << (row + 1 == rows ? "set xlabel 'time per vertex and simulated second' offset 0,0.5\n"
-                                : "unset xlabel\n")
-            << plot << "unset label 1\n";
-    }
-    out << "set origin 0,0\nset size 1," << double(foot) / height
-        << "\nset lmargin 1\nset rmargin 1\nset tmargin 0\nset bmargin 0\n"
-        << legend(panels) << "unset multiplot\nset output\n";
-    return out.str();
-}
-
 std::string accuracyScript(const std::string& output, const AccuracyPanel& panel) {
     Limits limits;
     add(limits, panel.points);
@@ -389,11 +338,6 @@ void plotAccuracy(const std::string& file, const AccuracyPanel& panel) {
     if (!plottable(panel.points))
         throw Error(concat(file, ": no point has both an error and a time to draw"));
     drawWithGnuplot(file, accuracyScript(file, panel));
-}
-
-void plotGrid(const std::string& file, const std::string& title, int columns,
-              const std::vector<AccuracyPanel>& panels) {
-    drawWithGnuplot(file, gridScript(file, title, columns, panels));
 }
 
 }  // namespace shoal::app

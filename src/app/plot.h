@@ -37,8 +37,4 @@ bool plottable(const std::vector<measure::AccuracyPoint>& points);
 
 // Error: gnuplot fails, the file cannot be written.
 void plotAccuracy(const std::string& file, const AccuracyPanel& panel);
-// A grid of small panels, row by row; an empty one stays blank. One key for all.
-void plotGrid(const std::string& file, const std::string& title, int columns,
-              const std::vector<AccuracyPanel>& panels);
-
 }  // namespace shoal::app

@@ -36,7 +36,7 @@ class Sweep {
           progress_(progress),
           few_(withMolecules(scene, options.molecules)),
           many_(withMolecules(scene, options.timedMolecules)),
-          ladder_(stepLadder(options.fine, options.mostSplits)) {
+          ladder_(stepLadder(options.mostSplits)) {
         frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
         out_.scene = scene.name;
         out_.frameRate = scene.frameRate;
@@ -380,16 +380,14 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
     return {std::begin(allSamplings), std::end(allSamplings)};
 }
 
-std::vector<Step> stepLadder(bool fine, int mostSplits) {
+std::vector<Step> stepLadder(int mostSplits) {
     std::vector<Step> out;
-    const double factor = fine ? std::sqrt(2.0) : 2.0;
-    for (double steps = 1; steps < 1.001 * maxSubsteps * mostSplits; steps *= factor) {
+    for (int steps = 1; steps <= maxSubsteps * mostSplits; steps *= 2) {
         Step step;
-        while (steps / step.split > maxSubsteps && step.split < mostSplits)
+        while (steps / step.split > maxSubsteps)
             step.split *= 2;
-        if (steps / step.split > maxSubsteps) break;
-        step.substeps = int(std::lround(steps / step.split));
-        if (out.empty() || out.back() != step) out.push_back(step);
+        step.substeps = steps / step.split;
+        out.push_back(step);
     }
     return out;
 }

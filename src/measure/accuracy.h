@@ -43,7 +43,6 @@ struct AccuracyOptions {
     double duration = 1;                        // s of simulated time, rounded to whole frames
     int molecules = 8;                          // of each group, whose error is measured
     int timedMolecules = 16384;                 // of each group, at most
-    bool fine = false;                          // steps by sqrt 2 instead of 2
     std::vector<SolverKind> solvers = {};       // empty: all
     std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
     std::optional<double> seconds = {};         // of errors and times, at most, beside the first compiling,
@@ -97,8 +96,8 @@ AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& option
 // Fields differ between samplings unless none is read or all are the same everywhere and always.
 std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
 
-// Steps by growing number: 1, 2, 4, … substeps (fine: by sqrt 2) and, beyond maxSubsteps, shorter frames.
-std::vector<Step> stepLadder(bool fine, int mostSplits);
+// Steps by growing number: 1, 2, 4, … substeps and, beyond maxSubsteps, shorter frames.
+std::vector<Step> stepLadder(int mostSplits);
 
 // ---- Points, pure: which are worth having, and what an error costs
 

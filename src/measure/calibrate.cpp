@@ -14,10 +14,9 @@ namespace {
 // A sampling other than the exact one is tried for solvers within this factor of the best: reading fields
 // less often does not save more.
 constexpr double worthSampling = 10;
-constexpr int mostTries = 8;            // of more substeps for the sample
-constexpr double closeEnough = 1.12;    // of the fewest substeps that do
-constexpr double secondsAMolecule = 3;  // of the reference
-constexpr double readying = 0.5;        // of the time: to make methods ready, before they are tried
+constexpr int mostTries = 8;          // of more substeps for the sample
+constexpr double closeEnough = 1.12;  // of the fewest substeps that do
+constexpr double readying = 0.5;      // of the time: to make methods ready, before they are tried
 constexpr int fewOnGpu = 4096, fewOnCpu = 32;
 // Enough to fill the device, few enough to be quick.
 constexpr int manyOnGpu = 16384, manyOnCpu = 2048;
@@ -127,7 +126,7 @@ class Search {
             const double left = std::max(0.0, readying * options_.seconds - secondsSince(start_));
             const double each = 0.5 * left * device_.cores / std::max(1, reference_->molecules());
             const Settled settled =
-                reference_->solve(0.01 * options_.error, std::min(secondsAMolecule, each));
+                reference_->solve(0.01 * options_.error, std::min(MoleculeSample::referenceSeconds, each));
             if (settled == Settled::yes ||
                 (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error))
                 break;
@@ -145,8 +144,8 @@ class Search {
     std::string noReference(Settled settled) const {
         const std::string& why = reference_->why();
         if (settled == Settled::tooStiff)
-            return concat("--error: the scene is too stiff for a reference in ", secondsAMolecule,
-                          " s, so that no error can be given: ", why);
+            return concat("--error: the scene is too stiff for a reference in ",
+                          MoleculeSample::referenceSeconds, " s, so that no error can be given: ", why);
         if (settled == Settled::roughly)
             return concat("--error: no reference is near enough to tell an error of ", options_.error, ": ",
                           why);

@@ -105,6 +105,8 @@ JsonValue asJson(const Calibration& calibration);
 // be claimed of hundreds of molecules, of which a few may do what no other does.
 class MoleculeSample {
   public:
+    static constexpr double referenceSeconds = 3;  // a molecule
+
     // `error`: what is wanted; `core`: of the first molecules of the scene's groups. Borrows all of them.
     // `until`: what is not settled then stays so.
     MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,

@@ -10,7 +10,6 @@ namespace {
 constexpr double nearEnough = 0.3, roughlyNear = 3;  // of the error wanted: a change when the step is halved
 constexpr double floatNoise = 1e-4;                  // below it two runs in float agree
 constexpr double secondsARun = 6;                    // of all molecules by one method at one step
-constexpr double secondsAMolecule = 3;               // of the reference
 constexpr int mostAsked = 6;
 constexpr int mostWorst = 10;  // times the error wanted
 
@@ -126,7 +125,7 @@ void MoleculeSample::ask(SampledMolecule& molecule) {
     const std::vector<std::pair<size_t, int>> which = {{molecule.group, molecule.index}};
     auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
                                            frames_ / scene_.frameRate, device_.cores, which);
-    const Settled settled = own->solve(0.01 * error_, secondsAMolecule);
+    const Settled settled = own->solve(0.01 * error_, referenceSeconds);
     if (settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_)) {
         molecule.own = std::move(own);
         molecule.change = 0;

@@ -158,25 +158,6 @@ TEST_CASE("what is too stiff for a reference has times, and no errors", "[cli]")
             "too stiff for a reference in 3 s", cacheIn(scratch));
 }
 
-TEST_CASE("a report measures again what was measured otherwise", "[cli]") {
-    if (std::system("gnuplot --version >/dev/null 2>&1") != 0) return;
-    const Scratch scratch;
-    const auto report = [&](const char* molecules) {
-        const Outcome outcome =
-            runShoal({"measure", "--report", scratch.path("all"), "--only", "leaf-spin-1e2", "--count", "8",
-                      "--molecules", molecules, "--seconds", "0.5", "--solvers", "leapfrog"},
-                     cacheIn(scratch));
-        INFO(outcome.err);
-        REQUIRE(outcome.code == 0);
-        CHECK_THAT(outcome.out, Catch::Contains(concat("8 molecules timed, ", molecules, " measured")));
-        return outcome.err;
-    };
-    CHECK_THAT(report("1"), Catch::Contains("scene 1 of 1"));
-    CHECK_THAT(report("1"), !Catch::Contains("scene 1 of 1"));
-    CHECK_THAT(report("2"), Catch::Contains("measured again, because the number of molecules differs") &&
-                                Catch::Contains("scene 1 of 1"));
-}
-
 TEST_CASE("--error finds a method, once", "[cli]") {
     const Scratch scratch;
     const std::string scene = shearScene(scratch);
@@ -233,11 +214,7 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
 }
 
 TEST_CASE("measure refuses what it cannot do", "[cli]") {
-    refusal({"measure"}, "measure: expected a scene file, or --report and a folder");
-    refusal({"measure", squaresScene(), "--report", "x"}, "measure: expected a scene file, or --report");
-    refusal({"measure", "--report", "x", "--json"}, "--report excludes --json");
-    refusal({"measure", "--report", "x", "--duration", "1"}, "--duration excludes --report");
-    refusal({"measure", "--report", "x", "--seed", "1"}, "--report excludes --seed");
+    refusal({"measure"}, "measure: expected a scene file");
     refusal({"measure", squaresScene(), "--solvers", "eulr"},
             "--solvers: unknown solver \"eulr\" (did you mean");
     refusal({"measure", squaresScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");

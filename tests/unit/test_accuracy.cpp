@@ -1,15 +1,10 @@
-// The pure parts of `shoal measure`: the front, what an error costs, the ladder of steps, the tables, the
-// report's scenes.
+// The pure parts of `shoal measure`: the front, what an error costs, the ladder of steps.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "compile/plan.h"
 #include "measure/accuracy.h"
 #include "measure/calibrate.h"
 #include "measure/method_runner.h"
-#include "measure/report_scenes.h"
-#include "reference/fields.h"
 #include "scene/field_kinds.h"
 #include "support/catch.h"
 
@@ -36,18 +31,6 @@ std::vector<AccuracyPoint> twoCurves() {
         out.push_back(point(SolverKind::euler, n, n, 1.0 / n));
     for (int n = 1; n <= 1024; n *= 2)
         out.push_back(point(SolverKind::leapfrog, n, 2.0 * n, 1.0 / n / n));
-    return out;
-}
-
-std::vector<std::string> lines(const std::string& text) {
-    std::vector<std::string> out(1);
-    for (const char c : text) {
-        if (c == '\n')
-            out.emplace_back();
-        else
-            out.back() += c;
-    }
-    out.pop_back();
     return out;
 }
 
@@ -153,19 +136,14 @@ TEST_CASE("the best field sampling of a solver", "[accuracy]") {
 }
 
 TEST_CASE("the ladder of steps", "[accuracy]") {
-    const std::vector<Step> coarse = stepLadder(false, 16);
+    const std::vector<Step> coarse = stepLadder(16);
     REQUIRE(coarse.size() == 14);
     for (size_t i = 0; i < coarse.size(); ++i) {
         CHECK(coarse[i].perFrame() == 1 << i);
         CHECK(coarse[i].substeps <= maxSubsteps);
         CHECK((coarse[i].split == 1) == (i < 10));
     }
-    CHECK(stepLadder(false, 1).back() == Step{512, 1});
-    const std::vector<Step> fine = stepLadder(true, 4);
-    for (size_t i = 1; i < fine.size(); ++i)
-        CHECK(fine[i].perFrame() > fine[i - 1].perFrame());
-    CHECK(fine[3] == Step{4, 1});
-    CHECK(fine[4] == Step{6, 1});
+    CHECK(stepLadder(1).back() == Step{512, 1});
 }
 
 TEST_CASE("times end when their seconds are over, and say by the first round what has none", "[accuracy]") {
@@ -207,69 +185,6 @@ TEST_CASE("field samplings that differ", "[accuracy]") {
     CHECK(samplingsThatDiffer(scene).size() == 3);
     scene.groups[0].drag = {};
     CHECK(samplingsThatDiffer(scene).size() == 1);
-}
-
-TEST_CASE("tables of speed-ups", "[accuracy]") {
-    std::vector<ReportEntry> entries(4);
-    for (size_t i = 0; i < entries.size(); ++i) {
-        entries[i].molecule = "leaf";
-        entries[i].motion = "fall";
-        entries[i].stiffness = reportStiffnesses[i];
-    }
-    entries[0].accuracy.points = twoCurves();
-    entries[1].accuracy.chaotic = "so it is";
-    entries[2].accuracy.points = {point(SolverKind::rk4, 1, 1, 1e-6)};
-    const std::vector<std::string> speedUps = lines(speedUpTable(entries, 1e-2));
-    REQUIRE(speedUps.size() == 3);
-    CHECK(speedUps[0] == "| motion, molecule | k = 1e2 | k = 1e4 | k = 1e6 | k = 1e8 |");
-    // euler 100, leapfrog 20
-    CHECK(speedUps[2] == "| fall, leaf | leapfrog 5.0× | chaotic | rk4; euler not reached | not reached |");
-
-    const std::vector<std::string> costs = lines(costTable(entries, 1e-2));
-    REQUIRE(costs.size() == 5);
-    CHECK_THAT(costs[2], Catch::Contains("fall, leaf, k = 1e2 |"));
-    CHECK_THAT(costs[3], Catch::Contains("| ≤ ") && Catch::Contains("not reached"));
-
-    entries[0].chosen.emplace();
-    entries[0].chosen->method = {SolverKind::leapfrog, FieldSampling::vertexFrame};
-    entries[0].chosen->substeps = 7;
-    CHECK_THAT(chosenTable(entries), Catch::Contains("| leapfrog (vertexFrame) 7 | none |"));
-}
-
-TEST_CASE("the report's scenes are those of the numbers they quote", "[accuracy]") {
-    CHECK((foldedLeaf(1).vertices.size() == 4 && foldedLeaf(1).springs.size() == 6));
-    CHECK((bracedCross(1).vertices.size() == 10 && bracedCross(1).springs.size() == 29));
-    CHECK((slenderFish(1).vertices.size() == 24 && slenderFish(1).springs.size() == 96));
-    for (const Molecule& molecule : {foldedLeaf(1e4), bracedCross(1e4), slenderFish(1e4)}) {
-        CAPTURE(molecule.name);
-        std::set<std::pair<int, int>> pairs;
-        for (const Spring& spring : molecule.springs) {
-            CHECK(pairs.insert(std::minmax(spring.a, spring.b)).second);
-            CHECK(spring.damping == 0.05 * std::sqrt(spring.stiffness));
-        }
-        CHECK(std::count_if(molecule.vertices.begin(), molecule.vertices.end(),
-                            [](const Vertex& v) { return v.pinned; }) == 2);
-    }
-    const std::vector<ReportScene> scenes = reportScenes(3);
-    CHECK(scenes.size() == 48);
-    std::set<std::string> ids;
-    for (const ReportScene& one : scenes) {
-        CAPTURE(one.id);
-        CHECK(ids.insert(one.id).second);
-        Scene scene = one.scene;
-        scene.solver.kind = SolverKind::bdf2Xpbd;
-        CHECK(compile(scene).groups[0].needs.pins == (one.motion == "gusts"));
-    }
-    // u = (2 + 0.8 z, 0.5 x, 0.3 y) at (x, y, z) = (1, 2, 3) with z up
-    const glm::dvec3 fall = reference::fluidVelocity(scenes[0].scene.fields, {1, 3, -2}, 0);
-    CHECK(glm::length(fall - glm::dvec3(4.4, 0.6, -0.5)) < 1e-12);
-    // u = (4 + 2 sin 6 pi t + 0.5 z, 2 cos 2.6 pi t + 1.2 sin(14.6 pi t + 1) + 0.3 x, sin 10.2 pi t)
-    const double t = 0.37, pi = std::acos(-1.0);
-    const glm::dvec3 gust = reference::fluidVelocity(scenes[4].scene.fields, {1, 3, -2}, t);
-    const glm::dvec3 zUp(4 + 2 * std::sin(6 * pi * t) + 1.5,
-                         2 * std::cos(2.6 * pi * t) + 1.2 * std::sin(14.6 * pi * t + 1) + 0.3,
-                         std::sin(10.2 * pi * t));
-    CHECK(glm::length(gust - glm::dvec3(zUp.x, zUp.z, -zUp.y)) < 1e-12);
 }
 
 }  // namespace shoal::measure
