@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws what `shoal measure --json` found: error against time, by Matplotlib.
+"""Draws what `shoal measure --json` or `shoal bench --json` found, by Matplotlib; PICTURE ends in .png, .svg or .pdf.
 
-plot.py PICTURE FILE          one scene, large; PICTURE ends in .png, .svg or .pdf
-plot.py PICTURE FILE FILE…    small panels side by side, four in a row, with one key: what docs/accuracy/grid.py measured
+plot.py PICTURE FILE          of measure: one scene's error against time; of bench: time a quad against their number
+plot.py PICTURE FILE FILE…    of measure: small panels, four in a row, with one key: what docs/accuracy/grid.py measured
 """
 import json
 import pathlib
@@ -17,6 +17,10 @@ import matplotlib.pyplot as plt
 colors = {"euler": "#555555", "verlet": "#56B4E9", "leapfrog": "#0072B2", "rk4": "#009E73", "xpbd": "#E69F00",
           "bdf2-xpbd": "#D55E00", "bdf2-corotated": "#CC79A7"}
 strokes = {"vertexSubstep": ("-", "o"), "vertexFrame": ("--", "s"), "moleculeFrame": (":", "^")}
+quads = (1024, 16384, 131072, 1048576)
+bench_curves = (("ping-pong", "ping-pong", "#D55E00", "v"), ("scalar", "CPU, scalar", "#999999", "s"),
+                ("fragments", "fused, in fragments", "#56B4E9", "P"), ("fused", "fused", "#0072B2", "o"),
+                ("AVX2", "CPU, AVX2", "#009E73", "^"), ("AVX-512", "CPU, AVX-512", "#CC79A7", "D"))
 # The axes leave out points of a larger relative error: their steps are too long to mean anything.
 worst_error = 2
 
@@ -85,10 +89,31 @@ def draw(reports, picture):
     figure.savefig(picture, dpi=110, bbox_inches="tight")
 
 
+def draw_bench(report, picture):
+    figure, axes = plt.subplots(figsize=(9, 5.5), layout="constrained")
+    for label, name, color, marker in bench_curves:
+        curve = sorted((case["count"], case["nanosecondsPerMolecule"]) for case in report["cases"]
+                       if case["molecule"] == "quad" and case["case"] == label and case.get("minSeconds"))
+        if curve:
+            axes.plot(*zip(*curve), linewidth=2, marker=marker, color=color, label=name)
+    axes.set(xscale="log", yscale="log", xlabel="quads", ylabel="nanoseconds a quad and frame", xticks=quads,
+             xticklabels=[f"{count:,}" for count in quads], xlim=(700, 1500000))
+    axes.minorticks_off()
+    axes.set_title(f"euler, 4 substeps a frame; {report['machine']['processor']}, {report['context']['renderer']}", fontsize=10)
+    axes.grid(which="both", color="#D8D8D8", linewidth=0.6)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    figure.savefig(picture, dpi=110)
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    draw([json.loads(pathlib.Path(file).read_text(encoding="utf-8")) for file in sys.argv[2:]], sys.argv[1])
+    reports = [json.loads(pathlib.Path(file).read_text(encoding="utf-8")) for file in sys.argv[2:]]
+    if "cases" in reports[0]:
+        draw_bench(reports[0], sys.argv[1])
+    else:
+        draw(reports, sys.argv[1])
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
-#include "app/plot.h"
 #include "core/printable.h"
 #include "gpu/program_cache.h"
 #include "measure/timing.h"
@@ -37,10 +36,7 @@ Wanted wantedOf(const Options& options, bool some = true) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
                  [&](const BenchCase& benchCase) { return named(benchCase.name()); });
     Wanted out{byGroup(chosen), named(errors), named(starts), named(passes)};
-    if (!some || !chosen.empty() || out.errors || out.starts || out.passes) {
-        if (!options.plot.empty()) checkPlot(options.plot, chosen);
-        return out;
-    }
+    if (!some || !chosen.empty() || out.errors || out.starts || out.passes) return out;
     std::string names;
     for (const std::vector<BenchCase>& group : byGroup(all))
         names += "\"" + group.front().group + "\", ";
@@ -181,11 +177,7 @@ int benchCommand(const Options& options) {
     BenchSession session(options, 12, 2);
     const BenchReport report = measureSpeeds(options, session);
     session.end();
-    if (!options.plot.empty())
-        plotBench(options.plot, report.machine.processor + ", " + report.machine.context.renderer,
-                  report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
-    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
     return 0;
 }
 

@@ -17,7 +17,7 @@ void keepToSandbox(const Options& options, const std::string& file) {
     if (!fs::is_directory(own, code)) own = own.parent_path();
     std::vector<fs::path> folders = {own.empty() ? fs::path(".") : own, shaderRoot(), moleculeFolder(),
                                      modelFolder(), cacheFolder()};
-    for (const std::string& given : {options.resume, options.exports, options.plot})
+    for (const std::string& given : {options.resume, options.exports})
         folders.emplace_back(given);
     if (!options.molecule.output.empty())
         folders.push_back(fs::absolute(options.molecule.output).parent_path());

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "app/measure.h"
-#include "app/plot.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
@@ -75,24 +74,10 @@ void choose(const Scene& scene, const Options& options, const AccuracyDevice& de
     }
 }
 
-AccuracyPanel panelOf(const MeasureReport& report) {
-    AccuracyPanel out;
-    out.title = concat(report.accuracy.scene, ": error after ", report.accuracy.duration, " s");
-    out.subtitle = report.machine.processor + ", " + report.machine.context.renderer;
-    out.points = report.accuracy.points;
-    if (const AccuracyPoint* point = chosenPoint(report)) out.chosen = *point;
-    out.target = report.target;
-    return out;
-}
-
-// The report first: a picture that fails must not take it along.
 void tell(const MeasureReport& report, const Options& options) {
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
     if (!options.csv.empty() && !options.json) std::cout << "\ntable: " << printable(options.csv) << "\n";
-    std::cout.flush();
-    if (!options.plot.empty()) plotAccuracy(options.plot, panelOf(report));
-    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
 }
 
 }  // namespace
@@ -153,7 +138,6 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
 
 int measureCommand(const Options& options) {
     // known before the measuring, not after it
-    if (!options.plot.empty()) needGnuplot(options.plot);
     if (!options.csv.empty()) checkWritable(options.csv);
     const Scene scene = readScene(options.files.front(), options);
     tellWarnings(scene.warnings);

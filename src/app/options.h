@@ -86,12 +86,11 @@ struct Options : RunRequest {
     bool quick = false;
     std::optional<double> seconds;  // of measuring, each group of cases
     std::string only;               // cases with this in their name
-    std::string plot;               // .svg or .png
 
     // run, explain, measure: the largest relative error that is wanted; chooses the method
     std::optional<double> error;
     double errorSeconds = 60;  // run, explain: that finding it may take
-    // measure (`seconds` and `plot` as above)
+    // measure (`seconds` as above)
     std::vector<SolverKind> solvers;       // empty: all
     std::vector<FieldSampling> samplings;  // empty: all that differ
     double duration = 1;                   // s of simulated time

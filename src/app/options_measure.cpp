@@ -26,8 +26,6 @@ void finishBench(Options& options) {
     }
     if (options.benchOf.empty()) return;
     const std::string& word = options.benchOf;
-    if (!options.plot.empty())
-        throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")
         throw Error("--only is not of bench sort, which measures everything: leave it out");
     options.command =
@@ -77,10 +75,6 @@ static void addSeconds(CLI::App& command, Options& options, const std::string& w
               [](double s) { return s > 0 && s <= 3600; });
 }
 
-static CLI::Option* addPlot(CLI::App& command, Options& options, const std::string& what) {
-    return addFile(command, "--plot", options.plot, what)->check(endsIn({".svg", ".png"}));
-}
-
 void addBench(CLI::App& command, Options& options) {
     command
         .add_option("bench", options.benchOf,
@@ -93,13 +87,12 @@ void addBench(CLI::App& command, Options& options) {
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
     addSeconds(command, options, "Time for each group of cases (default 12, quick 2)");
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
-    addPlot(command, options, "Time per molecule against their number (.svg or .png)")->group(reports);
     addFile(
         command, "--report", options.report,
         "Everything about this device into one JSON file, unattended: whether it computes and draws what it "
         "should, and how fast; about five minutes")
         ->group(reports);
-    excludes(command, "--report", {"--json", "--plot"});
+    excludes(command, "--report", {"--json"});
 }
 
 void addMeasure(CLI::App& command, Options& options) {
@@ -125,7 +118,6 @@ void addMeasure(CLI::App& command, Options& options) {
     addSeconds(command, options, "About how long to measure; leaves out what is dearest");
     section(command, reports);
     addFile(command, "--csv", options.csv, "Every point as a row of this file");
-    addPlot(command, options, "Error against time (.svg or .png)");
     section(command, ofScene);
     addCountAndSeed(command, options);
     addPath(command, options);

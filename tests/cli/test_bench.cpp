@@ -12,9 +12,6 @@ namespace {
 
 const Words fast = {"bench", "--quick", "--only", "1,024 quads: ", "--seconds", "0.05"};
 
-// The fastest that can be plotted.
-const Words plotted = {"bench", "--quick", "--only", "1,024 quads: scalar", "--seconds", "0.05"};
-
 Words with(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -89,62 +86,14 @@ TEST_CASE("bench refuses what it cannot do", "[cli]") {
     refusal({"bench", "--seconds", "nan"}, "--seconds: expected a time above 0");
     refusal({"bench", "--seconds", "ten"},
             "--seconds: expected a time above 0, at most 3600 s, found \"ten\"");
-    refusal({"bench", "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png, found \"x.pdf\"");
     refusal({"bench", "--context", "egll"}, "did you mean \"egl\"?");
     refusal({"bench", "--quik"}, "unknown option --quik (did you mean \"--quick\"?)");
     refusal({"bench", "squares.scene.json"}, "squares.scene.json");
     refusal({"bench", "sorr"}, "bench: unknown word \"sorr\" (did you mean \"sort\"?)");
     refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
-    refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");
     refusal({"bench", "collide", "--only", "squids"}, "there are \"molecules\" and \"searches\"");
     const std::string none = refusal({"bench", "--only", "squids"}, "nothing has \"squids\" in its name");
     CHECK_THAT(none, Catch::Contains("16,384 crosses"));
-    refusal({"bench", "--only", "fish", "--plot", "x.svg"}, "--only leaves none of them");
-}
-
-TEST_CASE("bench asks for gnuplot before it measures", "[cli]") {
-    const Scratch scratch;
-    Words words = with(plotted, {"--plot", scratch.path("speed.svg")});
-    const std::string message = refusal(words, "needs the gnuplot command", {.environment = {{"PATH", ""}}});
-    CHECK_THAT(message, Catch::Contains("apt install gnuplot-nox"));
-    CHECK(filesIn(scratch.folder().string()).empty());
-
-    // one that fails: no picture, no remains, its words
-    scratch.write("gnuplot", "#!/bin/sh\necho cannot draw >&2\nexit 3\n");
-    std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms::owner_all);
-    const Outcome failed = runShoal(words, {.environment = {{"PATH", scratch.folder().string()}}});
-    CHECK(failed.code == 1);
-    REQUIRE(failed.messages().size() == 1);
-    CHECK_THAT(failed.messages()[0], Catch::Contains("gnuplot did not draw it: cannot draw"));
-    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"gnuplot"});
-
-    // one that ends well on a full disk: the old picture stays
-    scratch.write("speed.svg", "old");
-    scratch.write("gnuplot", "#!/bin/sh\necho '<svg><path d=\"M 0'\n");
-    std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms::owner_all);
-    const Outcome cut = runShoal(words, {.environment = {{"PATH", scratch.folder().string()}}});
-    CHECK(cut.code == 1);
-    REQUIRE(cut.messages().size() == 1);
-    CHECK_THAT(cut.messages()[0],
-               Catch::Contains("speed.svg: gnuplot did not draw it: what it wrote is not whole, the picture "
-                               "does not end with </svg>"));
-    CHECK(readFile(scratch.path("speed.svg")) == "old");
-    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"gnuplot", "speed.svg"});
-}
-
-TEST_CASE("bench plots", "[cli]") {
-    if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
-        WARN("skipped: gnuplot is not installed");
-        return;
-    }
-    const Scratch scratch;
-    for (const char* file : {"a'b.svg", "new/speed.png"}) {
-        const Outcome outcome = runShoal(with(plotted, {"--plot", scratch.path(file)}));
-        INFO(outcome.err);
-        REQUIRE(outcome.code == 0);
-        CHECK(std::filesystem::file_size(scratch / file) > 1000);
-    }
-    CHECK(filesIn(scratch.folder().string()).size() == 2);
 }
 
 TEST_CASE("bench sort reports every sort beside the published figures", "[cli]") {

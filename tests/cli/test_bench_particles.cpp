@@ -101,6 +101,5 @@ TEST_CASE("bench particles prints tables and the papers", "[cli][bench particles
 TEST_CASE("bench particles refuses what it cannot do", "[cli][bench particles]") {
     CHECK_THAT(refusal({"bench", "particles", "--only", "squids"}, "nothing has \"squids\" in its name"),
                Catch::Contains("height field, 1024 x 1024"));
-    refusal({"bench", "particles", "--plot", "x.svg"}, "--plot is of bench without a word");
     refusal({"bench", "partcles"}, "did you mean \"particles\"?");
 }

@@ -1,4 +1,4 @@
-// Names from files and of files reach terminals, gnuplot, ffmpeg, XML and GLSL as data only.
+// Names from files and of files reach terminals, ffmpeg, XML and GLSL as data only.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -123,24 +123,6 @@ TEST_CASE("names are comments in generated GLSL, and a run of them writes where 
     CHECK(
         runShoal({"run", scene, "--headless", "--frames", "1", "--export", "a\x1b.pvd"}, in(scratch)).code ==
         1);
-}
-
-TEST_CASE("a plot's title and its file's name run no command", "[cli]") {
-    if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
-        WARN("skipped: gnuplot is not installed");
-        return;
-    }
-    const Scratch scratch;
-    const std::string scene = hostileScene(scratch);
-    // settings of the folder, which a stranger may have sent along
-    scratch.write(".gnuplot", "!touch pwned\n");
-    const std::string plot = "|touch pwned\n!touch pwned\n'.svg";
-    runs(scratch, {"measure", scene, "--solvers", "leapfrog", "--samplings", "vertexSubstep", "--duration",
-                   "0.1", "--molecules", "1", "--seconds", "1", "--plot", plot});
-    const std::string svg = readFile(scratch / plot);
-    CHECK_THAT(svg, Catch::Contains("<svg") && Catch::Contains("scene\\n!touch pwned") &&
-                        Catch::Contains("&lt;&amp;"));
-    CHECK(svg.find('\x1b') == std::string::npos);
 }
 
 TEST_CASE("a video's name is no option, pattern or protocol", "[cli]") {
