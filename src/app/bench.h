@@ -48,9 +48,9 @@ class WholeRun {
     measure::Clock::time_point start_ = measure::Clock::now();
 };
 
-// Targets as all but the plain `shoal bench` report them. `format`: of what was measured, as for std::printf.
-std::string asText(const std::vector<bench::Target>& targets, const char* format);
 JsonValue asJson(const std::vector<bench::Target>& targets);
+// The table of the targets in a report's JSON; without `whole` of those that were measured.
+std::string targetText(const JsonValue& report, bool whole = true);
 
 struct BenchReport {
     MeasuredOn machine;

@@ -1,4 +1,5 @@
 #include "app/bench.h"
+#include "core/table.h"
 
 namespace shoal::app {
 
@@ -25,64 +26,29 @@ std::vector<Target> targets(const CollideReport& report) {
     return out;
 }
 
-std::string contactText(const std::vector<ContactTimes>& all) {
-    std::string out, density;
-    for (const ContactTimes& t : all) {
-        if (t.benchCase.density != density) {
-            density = t.benchCase.density;
-            out += formatted("\n%s: %.4g m^3 a quad, spheres of %g m at its corners; ms, shortest (median)\n",
-                             density.c_str(), t.benchCase.room, ContactCase::radius);
-            out +=
-                "    quads  contacts            grid          search        response         contact"
-                "       baseline  ratio  ns/quad  ns/contact     fused    device\n";
-        }
-        if (!t.leftOut.empty()) {
-            out += formatted("%9s  left out: %s\n", grouped(t.benchCase.quads).c_str(), t.leftOut.c_str());
-            continue;
-        }
-        out += formatted("%9s%10s", grouped(t.benchCase.quads).c_str(), grouped(int(t.contacts)).c_str());
-        for (const measure::Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.baseline})
-            out += formatted("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
-        out += formatted("%7.2f%9.0f%12.0f%10.2f%10s\n", t.ratio(), t.perQuad() * 1e9,
-                         t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3,
-                         deviceMilliseconds(t.device).c_str());
-        if (t.dropped > 0) out += formatted("%9s  contacts dropped: %u\n", "", t.dropped);
-    }
-    return out;
-}
-
-std::string searchText(const SearchReport& report) {
-    if (report.shares.empty()) return "\nsearches left out: need OpenGL 4.3\n";
-    std::string out = formatted(
-        "\nshare of the contacts of %s spheres that a search finds; ns: grid and search,"
-        " for each contact found\n",
-        grouped(report.spheres).c_str());
-    out += "  spheres a cell   contacts";
-    const size_t kinds = 3;
-    for (size_t s = 0; s < kinds; ++s)
-        out += formatted("%12s      ns", name(report.shares[s].search));
-    for (size_t i = 0; i < report.shares.size(); ++i) {
-        const SearchShare& share = report.shares[i];
-        if (i % kinds == 0)
-            out += formatted("\n  %14g%11s", share.perCell, grouped(int(share.contacts)).c_str());
-        out += formatted("%11.1f%%%8.0f", share.share() * 100, share.perContact() * 1e9);
-    }
-    const size_t steps = report.steps.size() / kinds;
-    out += formatted(
-        "\n\nshare of the contacts of %s spheres in flight, %g a cell, that a look after every step"
-        " finds\n",
-        grouped(report.movingSpheres).c_str(), report.movingPerCell);
-    out += "  radii in a step  contacts";
-    for (size_t s = 0; s < kinds; ++s)
-        out += formatted("%12s", name(report.steps[s * steps].search));
-    for (size_t i = 0; i < steps; ++i) {
-        out +=
-            formatted("\n  %15g%10s", report.steps[i].step, grouped(int(report.steps[i].contacts)).c_str());
-        for (size_t s = 0; s < kinds; ++s)
-            out += formatted("%11.1f%%", report.steps[s * steps + i].share() * 100);
-    }
-    return out + "\n";
-}
+constexpr Column contactColumns[] = {{"quads", "quads", 10, "%.0f"},
+                                     {"contacts", "contacts", 10, "%.0f"},
+                                     {"grid.minSeconds", "grid ms", 9, "%.2f", 1e3},
+                                     {"search.minSeconds", "search", 8, "%.2f", 1e3},
+                                     {"response.minSeconds", "response", 10, "%.2f", 1e3},
+                                     {"contact.minSeconds", "contact", 9, "%.2f", 1e3},
+                                     {"contact.medianSeconds", "median", 8, "%.2f", 1e3},
+                                     {"deviceMinSeconds", "device", 8, "%.2f", 1e3},
+                                     {"fusedStep.minSeconds", "fused", 8, "%.2f", 1e3},
+                                     {"baseline.minSeconds", "baseline", 10, "%.2f", 1e3},
+                                     {"overBaseline", "ratio", 7, "%.2f"},
+                                     {"nanosecondsPerQuad", "ns/quad", 9, "%.0f"},
+                                     {"contact.minSeconds", "ns/contact", 12, "%.0f", 1e9, "contacts"},
+                                     {"dropped", "dropped", 9, "%.0f"}};
+constexpr Column searchColumns[] = {{"search", "search", -12},
+                                    {"spheresPerCell", "spheres a cell", 15, "%g"},
+                                    {"contacts", "contacts", 10, "%.0f"},
+                                    {"found", "found", 9, "%.1f%%", 100, "contacts"},
+                                    {"nanosecondsPerContact", "ns each", 9, "%.0f"}};
+constexpr Column speedColumns[] = {{"search", "search", -12},
+                                   {"radiiInAStep", "radii a step", 15, "%g"},
+                                   {"contacts", "contacts", 10, "%.0f"},
+                                   {"found", "found", 9, "%.1f%%", 100, "contacts"}};
 
 JsonValue asJson(const measure::Spread& spread) {
     return object(key("minSeconds", spread.min), key("medianSeconds", spread.median),
@@ -123,11 +89,19 @@ JsonValue asJson(const SearchReport& report) {
 }  // namespace
 
 std::string asText(const CollideReport& report) {
-    std::string out = asText(report.machine);
-    out += "\n" + contactText(report.contact);
-    if (report.searches) out += searchText(*report.searches);
-    if (report.contact.empty()) return out;
-    return out + "\n" + asText(targets(report), "%.2f");
+    const JsonValue json = asJson(report);
+    std::string out = asText(report.machine) + "\n";
+    if (!report.contact.empty())
+        out += tableText(contactColumns, json.find("contact")->items, "density") + targetText(json);
+    if (!report.searches) return out;
+    if (report.searches->shares.empty()) return out + "\nsearches left out: need OpenGL 4.3\n";
+    const JsonValue& searches = *json.find("searches");
+    return out + concat("\nthe contacts of ", report.searches->spheres,
+                        " spheres that a search finds; ns: grid and search, for each contact found\n",
+                        tableText(searchColumns, searches.find("overDensity")->items), "\nthe contacts of ",
+                        report.searches->movingSpheres, " spheres in flight, ",
+                        report.searches->movingPerCell, " a cell, that a look after every step finds\n",
+                        tableText(speedColumns, searches.find("overSpeed")->items));
 }
 
 JsonValue asJson(const CollideReport& report) {

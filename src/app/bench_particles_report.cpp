@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/table.h"
+
 namespace shoal::app {
 
 using namespace bench;
@@ -96,49 +98,24 @@ std::vector<BirthCost> birthCosts(const Times& times) {
     return out;
 }
 
-std::string timesText(const Times& all) {
-    std::string out, group;
-    for (const ParticleTimes& t : all) {
-        if (t.benchCase.group != group) {
-            group = t.benchCase.group;
-            out += formatted(
-                "\n%s; ms a frame, shortest (median), and the device's own\n  "
-                "%-40s%18s%10s%10s%9s%8s%12s%11s\n",
-                group.c_str(), "", "", "device", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
-        }
-        out += formatted("  %-40s", t.benchCase.label.c_str());
-        if (!t.leftOut.empty()) {
-            out += " left out: " + t.leftOut + "\n";
-            continue;
-        }
-        out += formatted("%9.3f (%6.4g)%10s%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3,
-                         deviceMilliseconds(t.device).c_str(), 1 / t.frame.min, t.perParticle() * 1e9);
-        out += t.movedBytes > 0 ? formatted("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min)
-                                : formatted("%8s", "");
-        out += t.error ? formatted("%12.1e", *t.error) : formatted("%12s", "");
-        if (t.benchCase.published > 0) out += formatted("%11g", t.benchCase.published);
-        out += "\n";
-    }
-    return out;
-}
-
-std::string birthsText(const Times& all) {
-    std::string out;
-    for (const ParticleTimes& t : all) {
-        if (!t.benchCase.allocator || !t.leftOut.empty()) continue;
-        if (out.empty())
-            out = formatted("\n%-56s%10s%10s%9s%9s%12s\n", "births", "living", "born", "lost", "packing",
-                            "bus bytes");
-        out += formatted("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.benchCase.name().c_str(), t.live, t.born,
-                         t.lost, t.packing, t.busBytes);
-    }
-    if (!out.empty())
-        out += "  a frame; packing: places up to the last that is taken, over the living; at most\n";
-    for (const BirthCost& cost : birthCosts(all))
-        out += formatted("  a birth and a death, %-32s %4d x %-4d %6.1f ns\n", cost.how.c_str(), cost.side,
-                         cost.side, cost.nanoseconds);
-    return out;
-}
+constexpr Column particleColumns[] = {{"case", "case", -40},
+                                      {"minSeconds", "min ms", 9, "%.3f", 1e3},
+                                      {"medianSeconds", "median ms", 11, "%.3f", 1e3},
+                                      {"deviceMinSeconds", "device ms", 11, "%.3f", 1e3},
+                                      {"", "steps/s", 10, "%.0f", 1, "minSeconds"},
+                                      {"nanosecondsPerParticle", "ns each", 9},
+                                      {"movedBytesPerFrame", "GB/s", 8, "%.1f", 1e-9, "minSeconds"},
+                                      {"positionError", "error m", 10, "%.1e"},
+                                      {"publishedFramesPerSecond", "UberFlow", 10, "%g"}};
+// Of a frame; packing: places up to the last that is taken, over the living.
+constexpr Column birthColumns[] = {{"case", "case", -40},
+                                   {"living", "living", 10, "%.0f"},
+                                   {"bornPerFrame", "born", 9, "%.0f"},
+                                   {"lostPerFrame", "lost", 9, "%.1f"},
+                                   {"packing", "packing", 9, "%.3f"},
+                                   {"busBytesPerFrame", "bus bytes", 11, "%.0f"}};
+constexpr Column costColumns[] = {
+    {"case", "a birth and a death", -40}, {"side", "side", 10, "%.0f"}, {"nanoseconds", "ns", 9, "%.1f"}};
 
 std::optional<double> unlessZero(double value) {
     return value > 0 ? std::optional(value) : std::nullopt;
@@ -175,9 +152,14 @@ constexpr const char* papers =
 }  // namespace
 
 std::string asText(const ParticleReport& report) {
-    std::string out = asText(report.machine);
-    out += "\n" + timesText(report.times) + birthsText(report.times) + "\n" + papers + "\n";
-    return out + asText(targets(report), "%.4g");
+    const JsonValue json = asJson(report);
+    const std::vector<JsonValue>&cases = json.find("cases")->items, &costs = json.find("birthCosts")->items;
+    std::vector<JsonValue> births;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(births),
+                 [](const JsonValue& row) { return row.find("allocator"); });
+    return asText(report.machine) + "\n" + tableText(particleColumns, cases, "group") +
+           tableText(birthColumns, births, "group") + (costs.empty() ? "" : "\n") +
+           tableText(costColumns, costs) + "\n" + papers + targetText(json);
 }
 
 JsonValue asJson(const ParticleReport& report) {

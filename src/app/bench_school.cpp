@@ -3,6 +3,7 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
+#include "core/table.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
 
@@ -12,28 +13,14 @@ using namespace bench;
 
 namespace {
 
-std::string asText(const MeasuredOn& machine, const std::vector<SchoolTimes>& all) {
-    std::string out = concat(
-        asText(machine), "\n\nFry of 20 vertices and 84 springs, leapfrog, 1/60 s a frame in 5 substeps, ",
-        schoolDensity,
-        " a cubic metre;\ntimes of a frame: min / median, and the device's own, the shortest; steps a second "
-        "by the minimum\n\n");
-    out += formatted("%-30s%20s%12s%12s%12s\n", "", "ms", "device ms", "steps/s", "us a fish");
-    for (const SchoolTimes& times : all) {
-        out += formatted("%-30s", concat(times.benchCase.count,
-                                         times.benchCase.schools ? " that school" : " that only swim",
-                                         times.benchCase.path == Path::fragments ? ", in fragments" : "")
-                                      .c_str());
-        if (!times.leftOut.empty())
-            out += concat("left out: ", times.leftOut, "\n");
-        else
-            out += formatted(
-                "%20s%12s%12.1f%12.3f\n",
-                formatted("%.2f / %.2f", times.frame.min * 1e3, times.frame.median * 1e3).c_str(),
-                deviceMilliseconds(times.device).c_str(), 1 / times.frame.min, times.perFish() * 1e6);
-    }
-    return out;
-}
+constexpr Column schoolColumns[] = {{"fish", "fish", 7, "%.0f"},
+                                    {"schools", "school", 8},
+                                    {"path", "path", 11},
+                                    {"minSeconds", "min ms", 10, "%.2f", 1e3},
+                                    {"medianSeconds", "median ms", 11, "%.2f", 1e3},
+                                    {"deviceMinSeconds", "device ms", 11, "%.3f", 1e3},
+                                    {"", "steps/s", 10, "%.1f", 1, "minSeconds"},
+                                    {"minSeconds", "us a fish", 11, "%.3f", 1e6, "fish"}};
 
 JsonValue asJson(const SchoolTimes& times) {
     JsonValue out = object(key("fish", times.benchCase.count), key("schools", times.benchCase.schools),
@@ -48,6 +35,13 @@ JsonValue asJson(const SchoolTimes& times) {
 JsonValue asJson(const MeasuredOn& machine, const std::vector<SchoolTimes>& all) {
     JsonValue out = headOf(machine);
     return append(out, key("cases", arrayOf(all, asJson)));
+}
+
+std::string asText(const MeasuredOn& machine, const std::vector<SchoolTimes>& all) {
+    return concat(asText(machine),
+                  "\n\nFry of 20 vertices and 84 springs, leapfrog, 1/60 s a frame in 5 substeps, ",
+                  schoolDensity, " a cubic metre\n\n",
+                  tableText(schoolColumns, asJson(machine, all).find("cases")->items));
 }
 
 }  // namespace

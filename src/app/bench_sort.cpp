@@ -5,6 +5,7 @@
 #include "app/bench.h"
 #include "app/commands.h"
 #include "bench/sort.h"
+#include "core/table.h"
 
 namespace shoal::app {
 
@@ -44,57 +45,14 @@ std::vector<Target> targets(const Report& report) {
     return out;
 }
 
-std::string ratesText(const Report& report) {
-    std::string out = "million items/s, by the shortest time     ";
-    for (const SortTable& table : report.tables)
-        out += formatted("%10d x %-4d", table.side, table.side);
-    out += "\n";
-    for (size_t i = 0; i < report.tables[0].times.size(); ++i) {
-        const SortTime& first = report.tables[0].times[i];
-        out += formatted("  %-40s", first.name.c_str());
-        if (!first.leftOut.empty()) {
-            out += "  left out: " + first.leftOut + "\n";
-            continue;
-        }
-        for (const SortTable& table : report.tables)
-            out += table.times[i].leftOut.empty()
-                       ? formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6)
-                       : formatted("%17s", "-");
-        out += "\n";
-    }
-    for (const PublishedSort& published : publishedSorts()) {
-        out += formatted("  %-40s", published.where);
-        for (size_t i = 0; i < std::min(report.tables.size(), published.millionItems.size()); ++i)
-            out += formatted("%17.2f", published.millionItems[i]);
-        out += "\n";
-    }
-    return out;
-}
-
-std::string timesText(const SortTable& table) {
-    std::string out = concat(
-        "\n", table.side, " x ", table.side,
-        "                          passes    min ms  median ms  device ms  samples  GB/s a pass  copy\n");
-    for (const SortTime& time : table.times) {
-        if (!time.leftOut.empty()) continue;
-        out += formatted("  %-32s%6s%10.3f%11.3f%11s%9d", time.name.c_str(),
-                         time.passes > 0 ? std::to_string(time.passes).c_str() : "-", time.seconds.min * 1e3,
-                         time.seconds.median * 1e3, deviceMilliseconds(time.device).c_str(),
-                         time.seconds.samples);
-        const double count = time.copy ? 1 : time.passes;
-        if (count > 0) out += formatted("%13.2f", count * 16e-9 * double(table.pairs()) / time.seconds.min);
-        if (const auto share = table.shareOfCopy(time)) out += formatted("%5.0f%%", 100 * *share);
-        out += "\n";
-    }
-    return out;
-}
-
-std::string asText(const Report& report) {
-    std::string out = asText(report.machine) + "\n\n" + ratesText(report);
-    for (const SortTable& table : report.tables)
-        out += timesText(table);
-    return out + "\n" + app::asText(targets(report), "%.2f");
-}
+constexpr Column sortColumns[] = {{"case", "case", -32},
+                                  {"millionItemsPerSecond", "million/s", 11, "%.2f"},
+                                  {"passes", "passes", 8, "%.0f"},
+                                  {"minSeconds", "min ms", 10, "%.3f", 1e3},
+                                  {"medianSeconds", "median ms", 11, "%.3f", 1e3},
+                                  {"deviceMinSeconds", "device ms", 11, "%.3f", 1e3},
+                                  {"samples", "samples", 9, "%.0f"},
+                                  {"shareOfCopy", "copy", 6, "%.0f%%", 100}};
 
 JsonValue asJson(const SortTable& table, const SortTime& time) {
     JsonValue out = object(key("side", table.side), key("pairs", table.pairs()), key("case", time.name));
@@ -119,6 +77,20 @@ JsonValue asJson(const Report& report) {
     return append(out, key("secondsASize", report.secondsASize), key("cases", cases),
                   key("published", arrayOf(publishedSorts(), asJson)),
                   key("targets", app::asJson(targets(report))));
+}
+
+std::string asText(const Report& report) {
+    const JsonValue json = asJson(report);
+    std::string out =
+        app::asText(report.machine) + "\n" + tableText(sortColumns, json.find("cases")->items, "side");
+    out += "\npublished, million/s\n";
+    for (const PublishedSort& published : publishedSorts()) {
+        out += formatted("  %-40s", published.where);
+        for (const double millions : published.millionItems)
+            out += formatted("%9.2f", millions);
+        out += "\n";
+    }
+    return out + targetText(json);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "app/explain_cost.h"
 #include "core/cache_folder.h"
-#include "core/printable.h"
+#include "core/table.h"
 #include "run/data_paths.h"
 #include "simulate/fused.h"
 
@@ -42,6 +42,19 @@ JsonValue asJson(const KernelCost& cost, const SceneCost& all) {
         key("memorySeconds", memory), key("arithmeticSeconds", arithmetic), key("bound", boundOf(cost, all)));
 }
 
+constexpr Column kernelColumns[] = {{"group", "group", -20},
+                                    {"lanes", "a lane a", 10},
+                                    {"bytesPerMolecule", "bytes", 9, "%.0f"},
+                                    {"operationsPerMolecule", "operations", 12, "%.0f"},
+                                    {"stateFetchesPerMolecule", "state fetches", 15, "%.0f"},
+                                    {"tableFetchesPerMolecule", "table fetches", 15, "%.0f"},
+                                    {"sharedBytes", "shared", 8, "%.0f"},
+                                    {"estimatedRegisters", "registers", 11, "%.0f"},
+                                    {"estimatedOccupancy", "occupancy", 11, "%.0f%%", 100},
+                                    {"memorySeconds", "memory ms", 11, "%.3g", 1e3},
+                                    {"arithmeticSeconds", "arithmetic ms", 15, "%.3g", 1e3},
+                                    {"bound", "bound", 12}};
+
 }  // namespace
 
 SceneCost sceneCost(const Options& options, const Loaded& loaded) {
@@ -69,23 +82,8 @@ std::string asText(const SceneCost& all) {
                          all.rates->kept ? "kept from before" : "measured now");
     else
         out += "no rates: copies and multiply-adds are measured with compute shaders (OpenGL 4.3)\n";
-    out +=
-        "\nof a molecule and frame; ms: what all of them take at the least, at those rates\n"
-        "                      a lane a    bytes operations  fetches: state  tables  shared  registers "
-        "occupancy "
-        "memory ms arithmetic ms  bound\n";
-    for (const KernelCost& cost : all.kernels) {
-        out += formatted("  %-20s%8s%9.0f%11.0f%16.0f%8.0f%8d%11d", printable(cost.group).c_str(),
-                         cost.lanes == Lanes::vertex ? "vertex" : "molecule", cost.bytes, cost.operations,
-                         cost.stateFetches, cost.tableFetches, cost.sharedBytes, cost.registers);
-        out += all.software ? formatted("%10s", "-") : formatted("%9.0f%%", cost.occupancy * 100);
-        if (all.rates)
-            out += formatted("%10.3g%14.3g", memorySeconds(cost, *all.rates) * 1e3,
-                             arithmeticSeconds(cost, *all.rates) * 1e3);
-        else
-            out += formatted("%10s%14s", "-", "-");
-        out += formatted("  %s\n", boundOf(cost, all));
-    }
+    out += "\nof a molecule and frame; ms: what all of them take at the least, at those rates\n";
+    out += tableText(kernelColumns, asJson(all).find("kernels")->items);
     return out +
            "\nBytes, fetches and shared memory (of a workgroup, bytes) follow from the layout. Operations "
            "are counted "

@@ -1,13 +1,11 @@
 #include "app/measure.h"
 
-#include <cmath>
-#include <iomanip>
 #include <sstream>
 
 #include "bench/case.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "measure/timing.h"
+#include "core/table.h"
 #include "molecule/analysis.h"
 
 namespace shoal::app {
@@ -20,14 +18,9 @@ std::string exponent(double value) {
     return formatted("%.1e", value);
 }
 
-std::string steps(const AccuracyPoint& point) {
-    if (point.step.split == 1) return std::to_string(point.step.substeps);
-    return concat(point.step.split, " x ", point.step.substeps);
-}
-
 void addHead(std::ostringstream& out, const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
-    out << twoLines(report.machine) << "; " << name(a.path) << " path\n"
+    out << asText(report.machine) << "; " << name(a.path) << " path\n"
         << "\"" << printable(a.scene) << "\": " << a.duration << " s at " << a.frameRate
         << " frames a second\n";
     for (const AccuracyGroup& group : a.groups)
@@ -43,64 +36,42 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         out << "the reference is good to " << exponent(a.referenceError) << "\n";
 }
 
-constexpr int measureColumns[] = {12, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
+constexpr Column pointColumns[] = {{"substeps", "substeps", 10, "%.0f"},
+                                   {"framesPerFrame", "frames", 8, "%.0f"},
+                                   {"stepsPerSecond", "steps/s", 9, "%.0f"},
+                                   {"error.total", "error", 9, "%.1e"},
+                                   {"error.centroid", "centroid", 9, "%.1e"},
+                                   {"error.shape", "shape", 9, "%.1e"},
+                                   {"error.worst", "worst", 9, "%.1e"},
+                                   {"minSecondsPerVertexAndSecond", "min ns", 11, nullptr, 1e9},
+                                   {"medianSecondsPerVertexAndSecond", "median ns", 11, nullptr, 1e9},
+                                   {"drift.energy", "energy", 9, "%.1e"},
+                                   {"drift.momentum", "momentum", 9, "%.1e"},
+                                   {"drift.angularMomentum", "angular", 9, "%.1e"},
+                                   {"mark", "", 7}};
+const char
+    *csvHead =
+        "solver,fieldSampling,substeps,framesPerFrame,stepsPerSecond,outcome,error,centroid,shape,worst,"
+        "energyDrift,momentumDrift,angularMomentumDrift,minSecondsPerVertexAndSecond,"
+        "medianSecondsPerVertexAndSecond,samples,stateBytes,front,chosen,why",
+    *csvKeys =
+        "solver,fieldSampling,substeps,framesPerFrame,stepsPerSecond,outcome,error.total,error.centroid,"
+        "error.shape,error.worst,drift.energy,drift.momentum,drift.angularMomentum,"
+        "minSecondsPerVertexAndSecond,medianSecondsPerVertexAndSecond,samples,stateBytes,front,chosen,why";
+constexpr Column candidateColumns[] = {{"solver", "solver", -16},
+                                       {"fieldSampling", "fields", -15},
+                                       {"substeps", "steps", 7, "%.0f"},
+                                       {"error", "RMS", 10, "%.1e"},
+                                       {"worst", "worst", 10, "%.1e"},
+                                       {"secondsPerVertexAndSecond", "ns", 9, nullptr, 1e9},
+                                       {"reached", "there", 7},
+                                       {"", "", 3, ""},
+                                       {"why", ""}};
 
-void addPoint(std::ostringstream& out, const AccuracyPoint& point, const MeasureReport& report) {
-    std::vector<std::string> cells = {steps(point), bench::grouped(int(std::lround(point.stepsPerSecond)))};
-    const auto orDash = [](const auto& value, auto&& text) -> std::string {
-        return value ? text(*value) : "-";
-    };
-    const auto part = [&](double ErrorParts::*member) {
-        cells.push_back(orDash(point.error, [&](const ErrorParts& e) { return exponent(e.*member); }));
-    };
-    part(&ErrorParts::total);
-    part(&ErrorParts::centroid);
-    part(&ErrorParts::shape);
-    part(&ErrorParts::worst);
-    const bool timed = point.time.samples > 0;
-    cells.push_back(timed ? nanoseconds(point.time.min) : "-");
-    cells.push_back(timed ? nanoseconds(point.time.median) : "-");
-    const auto drift = [&](double Drift::*member) {
-        cells.push_back(orDash(point.drift, [&](const Drift& d) { return exponent(d.*member); }));
-    };
-    drift(&Drift::energy);
-    drift(&Drift::momentum);
-    drift(&Drift::angularMomentum);
-    cells.push_back(&point == chosenPoint(report) ? "chosen" : point.front ? "front" : "");
-    out << tableRow(cells, measureColumns);
-}
-
-void addCurve(std::ostringstream& out, const Method& method, const MeasureReport& report) {
-    out << "\n" << measure::name(method) << "\n";
-    bool head = false;
-    const AccuracyPoint* refused = nullptr;
-    const auto tellRefused = [&] {
-        if (refused != nullptr)
-            out << "  refused up to " << steps(*refused)
-                << (refused->step.perFrame() == 1 ? " substep: " : " substeps: ") << printable(refused->why)
-                << "\n";
-        refused = nullptr;
-    };
-    for (const AccuracyPoint& point : report.accuracy.points) {
-        if (point.method != method) continue;
-        if (point.outcome == Outcome::refused) {
-            refused = &point;
-            continue;
-        }
-        tellRefused();
-        if (point.outcome != Outcome::measured) {
-            out << "  " << steps(point) << " substeps: " << name(point.outcome) << ": "
-                << printable(point.why) << "\n";
-            continue;
-        }
-        if (!head)
-            out << tableRow({"substeps", "steps/s", "error", "centroid", "shape", "worst", "min ns",
-                             "median ns", "energy", "momentum", "angular"},
-                            measureColumns);
-        head = true;
-        addPoint(out, point, report);
-    }
-    tellRefused();
+// Of several steps that a method refuses the last one is told.
+bool isToldLater(const std::vector<AccuracyPoint>& points, size_t i) {
+    return i + 1 < points.size() && points[i].outcome == Outcome::refused &&
+           points[i + 1].outcome == Outcome::refused && points[i].method == points[i + 1].method;
 }
 
 void addChosen(std::ostringstream& out, const MeasureReport& report) {
@@ -116,22 +87,24 @@ void addChosen(std::ostringstream& out, const MeasureReport& report) {
 void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
     const std::vector<AccuracyPoint>& points = report.accuracy.points;
     const std::optional<BestOf> euler = bestOf(points, SolverKind::euler, report.target);
-    bool head = false;
+    std::vector<JsonValue> rows;
     for (const Solver& solver : solvers()) {
         const std::optional<BestOf> best = bestOf(points, solver.kind, report.target);
         if (!best) continue;
-        if (!head)
-            out << "\nan error of " << report.target
-                << " of these molecules costs, ns per vertex and simulated second\n";
-        head = true;
-        out << "  " << std::left << std::setw(16) << solver.name << std::right << std::setw(10)
-            << nanoseconds(best->cost.time) << "   " << name(best->method.sampling) << ", "
-            << (best->cost.atLargestStep ? "at the largest step, " : "")
-            << bench::grouped(int(std::lround(best->cost.stepsPerSecond))) << " steps a second";
-        if (euler && solver.kind != SolverKind::euler)
-            out << "; " << formatted("%.2g", euler->cost.time / best->cost.time) << " times as fast as euler";
-        out << "\n";
+        rows.push_back(object(key("solver", solver.name), key("seconds", best->cost.time),
+                              key("fields", name(best->method.sampling)),
+                              key("steps", best->cost.stepsPerSecond),
+                              key("largest", best->cost.atLargestStep)));
+        if (euler) append(rows.back(), key("faster", euler->cost.time / best->cost.time));
     }
+    static constexpr Column columns[] = {
+        {"solver", "solver", -16},       {"seconds", "ns", 10, nullptr, 1e9},
+        {"fields", "fields", 15},        {"steps", "steps/s", 9, "%.0f"},
+        {"largest", "largest step", 14}, {"faster", "as fast as euler", 18, "%.2g x"}};
+    if (!rows.empty())
+        out << "\nan error of " << report.target
+            << " of these molecules costs, ns per vertex and simulated second\n"
+            << tableText(columns, rows);
 }
 
 JsonValue asJson(const ErrorParts& error) {
@@ -171,11 +144,22 @@ JsonValue asJson(const AccuracyGroup& group) {
                   key("measuredMolecules", group.measured), key("timedMolecules", group.timed));
 }
 
-std::string quotedCell(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : printable(text))
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
+// The points with what only text and CSV say of them.
+std::vector<JsonValue> pointRows(const MeasureReport& report) {
+    std::vector<JsonValue> out;
+    for (const AccuracyPoint& point : report.accuracy.points) {
+        const bool chosen = &point == chosenPoint(report), measured = point.outcome == Outcome::measured;
+        JsonValue& row = out.emplace_back(asJson(point));
+        append(row, key("chosen", chosen),
+               key("mark", chosen        ? "chosen"
+                           : point.front ? "front"
+                                         : ""),
+               key("method", measure::name(point.method)));
+        if (!measured)
+            append(row, key("unmeasured", concat(name(point.outcome), ": ", point.why)), key("samples", 0),
+                   key("front", false));
+    }
+    return out;
 }
 
 }  // namespace
@@ -205,33 +189,24 @@ std::string oneLine(const Calibration& calibration) {
     return concat("error ", calibration.target, ": ", shoal::name(calibration.method.solver), ", ",
                   calibration.substeps, calibration.substeps == 1 ? " substep" : " substeps",
                   " a frame, fields by ", shoal::name(calibration.method.sampling), "; ",
-                  sampleText(calibration), "; ", nanoseconds(calibration.cost),
+                  sampleText(calibration), "; ", shortNumber(calibration.cost * 1e9),
                   " ns per vertex and simulated second, ",
                   calibration.kept ? "as found before"
                                    : concat("found in ", formatted("%.1f", calibration.seconds), " s"));
 }
 
 std::string asText(const Calibration& calibration) {
-    std::string out = concat(oneLine(calibration), ": ", printable(calibration.why), "\n");
-    const char* row = "  %-30s%5s%10s%10s%9s";
-    out += formatted(row, "method", "steps", "RMS", "worst", "ns") + "\n";
-    for (const Candidate& candidate : calibration.candidates) {
-        const std::string steps = candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-",
-                          rms = candidate.error ? exponent(*candidate.error) : "-",
-                          worst = candidate.worst ? exponent(*candidate.worst) : "-",
-                          cost = candidate.cost > 0 ? nanoseconds(candidate.cost) : "-";
-        out += formatted(row, measure::name(candidate.method).c_str(), steps.c_str(), rms.c_str(),
-                         worst.c_str(), cost.c_str());
-        out += "   " + printable(candidate.why) + "\n";
-    }
-    return out;
+    return concat(oneLine(calibration), ": ", printable(calibration.why), "\n",
+                  tableText(candidateColumns, measure::asJson(calibration).find("candidates")->items));
 }
 
 std::string asText(const MeasureReport& report) {
     std::ostringstream out;
     addHead(out, report);
-    for (const Method& method : methodsOf(report.accuracy.points))
-        addCurve(out, method, report);
+    std::vector<JsonValue> rows = pointRows(report), told;
+    for (size_t i = 0; i < rows.size(); ++i)
+        if (!isToldLater(report.accuracy.points, i)) told.push_back(std::move(rows[i]));
+    out << tableText(pointColumns, told, "method");
     addSpeedUps(out, report);
     addChosen(out, report);
     if (!report.accuracy.notes.empty()) out << "\n";
@@ -258,31 +233,7 @@ JsonValue asJson(const MeasureReport& report) {
 }
 
 std::string asCsv(const MeasureReport& report) {
-    std::ostringstream out;
-    out << std::setprecision(9)
-        << "solver,fieldSampling,substeps,framesPerFrame,stepsPerSecond,outcome,error,centroid,shape,worst,"
-           "energyDrift,momentumDrift,angularMomentumDrift,minSecondsPerVertexAndSecond,"
-           "medianSecondsPerVertexAndSecond,samples,stateBytes,front,chosen,why\n";
-    for (const AccuracyPoint& p : report.accuracy.points) {
-        out << shoal::name(p.method.solver) << "," << shoal::name(p.method.sampling) << "," << p.step.substeps
-            << "," << p.step.split << "," << p.stepsPerSecond << "," << name(p.outcome) << ",";
-        if (p.error)
-            out << p.error->total << "," << p.error->centroid << "," << p.error->shape << ","
-                << p.error->worst << ",";
-        else
-            out << ",,,,";
-        if (p.drift)
-            out << p.drift->energy << "," << p.drift->momentum << "," << p.drift->angularMomentum << ",";
-        else
-            out << ",,,";
-        if (p.time.samples > 0)
-            out << p.time.min << "," << p.time.median << "," << p.time.samples << "," << p.stateBytes << ",";
-        else
-            out << ",,0,,";
-        out << p.front << "," << (&p == chosenPoint(report)) << ","
-            << (p.why.empty() ? "" : quotedCell(p.why)) << "\n";
-    }
-    return out.str();
+    return tableCsv(csvHead, csvKeys, pointRows(report));
 }
 
 }  // namespace shoal::app

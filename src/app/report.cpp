@@ -9,21 +9,10 @@
 
 namespace shoal::app {
 
-std::string tableRow(const std::vector<std::string>& cells, std::span<const int> widths) {
-    std::string out;
-    for (size_t i = 0; i < cells.size(); ++i)
-        out += formatted("%*s", widths[i], cells[i].c_str());
-    return out.substr(0, out.find_last_not_of(' ') + 1) + "\n";
-}
-
 void appendDeviceTime(JsonValue& out, const measure::Spread& device) {
     std::optional<double> min, median;
     if (device.samples > 0) min = device.min, median = device.median;
     append(out, key("deviceMinSeconds", min), key("deviceMedianSeconds", median));
-}
-
-std::string deviceMilliseconds(const measure::Spread& device) {
-    return device.samples > 0 ? formatted("%.3f", device.min * 1e3) : "-";
 }
 
 std::string processorName() {
@@ -45,11 +34,6 @@ std::string asText(const MeasuredOn& machine) {
                machine.context.renderer, ", OpenGL ", machine.context.version);
     if (machine.pinned > 0) out += concat("; ", machine.pinned, " rasteriser threads pinned");
     return out;
-}
-
-std::string twoLines(const MeasuredOn& machine) {
-    return concat(machine.processor, ", ", machine.cores, " cores\n", machine.context.renderer, " (",
-                  gpu::name(machine.context.kind), "), OpenGL ", machine.context.version);
 }
 
 JsonValue asJson(const gpu::ContextInfo& context) {

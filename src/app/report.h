@@ -1,7 +1,6 @@
-// Reports share these: the machine, the passes' times, rows of text; and the report of `run --json`.
+// Reports share these: the machine, the passes' times; and the report of `run --json`.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,13 +11,8 @@
 
 namespace shoal::app {
 
-// A row of a table with its end, without blanks before that. Widths as std::printf has them: below 0 for
-// cells that begin to the left.
-std::string tableRow(const std::vector<std::string>& cells, std::span<const int> widths);
-
-// The device's own time of a case (bench/bench.h): its two keys, null without samples; and in ms, or "-".
+// The device's own time of a case (bench/bench.h): its two keys, null without samples.
 void appendDeviceTime(JsonValue& out, const measure::Spread& device);
-std::string deviceMilliseconds(const measure::Spread& device);
 
 // ---- The machine
 
@@ -32,7 +26,6 @@ struct MeasuredOn {
 };
 MeasuredOn measuredOn(const gpu::Context& context);  // none pinned
 std::string asText(const MeasuredOn& machine);       // one line, without its end
-std::string twoLines(const MeasuredOn& machine);     // without the second one's end
 JsonValue headOf(const MeasuredOn& machine);         // the first keys of a report
 JsonValue asJson(const gpu::ContextInfo& context);
 

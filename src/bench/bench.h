@@ -170,7 +170,6 @@ struct Target {
     double limit = 0;
     bool atLeast = false;                 // else at most
     std::optional<double> measured = {};  // of the shortest times; nothing: this run has not what it takes
-    std::string unit = "x";               // or "bytes"
     std::optional<double> ofMedians = {};
     bool holds() const { return measured && (atLeast ? *measured >= limit : *measured <= limit); }
 };
@@ -186,9 +185,6 @@ std::vector<std::string> distances(const std::vector<BenchResult>& all);
 
 // How many cases took much longer by the median than by the shortest time: something else was running.
 int disturbed(const std::vector<BenchResult>& all);
-
-// One line for people: what was wanted, what was measured.
-std::string sentence(const Target& target);
 
 // ---- Schools
 // `shoal bench school` measures fry that swim with their muscles and school at a fixed

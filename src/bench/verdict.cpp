@@ -126,16 +126,16 @@ void addMemory(std::vector<Target>& out, const std::vector<BenchResult>& all) {
     };
     const std::optional<double> twoSides = bytes("fused"), inPlace = bytes("fused, in place"),
                                 drawn = bytes("fused, drawn");
-    out.push_back({"device memory of a quad, two sides", 290, false, twoSides, "bytes", {}});
-    out.push_back({"device memory of a quad, in place", 160, false, inPlace, "bytes", {}});
+    out.push_back({"device memory of a quad, two sides", 290, false, twoSides, {}});
+    out.push_back({"device memory of a quad, in place", 160, false, inPlace, {}});
     std::optional<double> more;
     if (twoSides && drawn) more = *drawn - *twoSides;
-    out.push_back({"device memory of a quad, more when drawn", 64, false, more, "bytes", {}});
+    out.push_back({"device memory of a quad, more when drawn", 64, false, more, {}});
     std::optional<double> bus;
     for (const BenchResult& result : all)
         if (result.benchCase.subject == Subject::fused && result.frame.samples > 0)
             bus = std::max(bus.value_or(0), result.busStateBytes);
-    out.push_back({"state over the bus a frame, fused", 0, false, bus, "bytes", {}});
+    out.push_back({"state over the bus a frame, fused", 0, false, bus, {}});
 }
 
 }  // namespace
@@ -197,16 +197,6 @@ std::vector<std::string> distances(const std::vector<BenchResult>& all) {
                       *ratios.arithmetic * 1e-9, *ratios.shareOfPeak * 100));
     }
     return out;
-}
-
-std::string sentence(const Target& target) {
-    const std::string unit = target.unit == "x" ? " times" : " " + target.unit;
-    const std::string wanted =
-        formatted("wanted: at %s %.3g", target.atLeast ? "least" : "most", target.limit);
-    if (!target.measured) return target.what + " (" + wanted + unit + ")";
-    std::string out = target.what + formatted(": %.3g", *target.measured) + unit;
-    if (target.ofMedians) out += formatted(", by medians %.3g", *target.ofMedians);
-    return out + " (" + wanted + ")";
 }
 
 }  // namespace shoal::bench

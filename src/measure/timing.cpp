@@ -74,9 +74,4 @@ int pinRasteriserThreads() {
     return pinned;
 }
 
-std::string nanoseconds(double seconds) {
-    const double value = seconds * 1e9;
-    return formatted(value < 10 ? "%.2f" : value < 100 ? "%.1f" : "%.0f", value);
-}
-
 }  // namespace shoal::measure

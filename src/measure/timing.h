@@ -58,9 +58,6 @@ void takeTurns(const VisitPlan& plan, Visit visit) {
             if (plan.visits(i, round)) visit(i);
 }
 
-// A time in nanoseconds, of three digits that count.
-std::string nanoseconds(double seconds);
-
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU
 // rasteriser share one core half of the time, which doubles the noise. Returns how many there were.
 int pinRasteriserThreads();
