@@ -1,0 +1,52 @@
+// `shoal bench particles`: point particles beside a loop on the CPU, a quad's share and the papers.
+#include <algorithm>
+#include <iostream>
+
+#include "app/bench/bench.h"
+#include "app/line/commands.h"
+#include "molecule/molecule_file.h"
+#include "run/data_paths.h"
+
+namespace shoal::app {
+
+using namespace bench;
+
+namespace {
+
+std::vector<ParticleCase> particleCasesOf(const Options& options) {
+    std::vector<ParticleCase> all = particleCases(options.quick), some;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const ParticleCase& particleCase) {
+        return particleCase.name().find(options.only) != std::string::npos;
+    });
+    if (!some.empty()) return some;
+    std::vector<std::string> names;
+    for (const std::vector<ParticleCase>& group : byGroup(all))
+        names.push_back(concat("\"", group.front().group, "\""));
+    throw Error(
+        concat("--only: nothing has \"", options.only, "\" in its name; there are ", joined(names, ", ")));
+}
+
+}  // namespace
+
+int benchParticlesCommand(const Options& options) {
+    const std::vector<std::vector<ParticleCase>> groups = byGroup(particleCasesOf(options));
+    const std::string folder = moleculeFolder() + "/";
+    const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
+    BenchSession session(options, 8, 1);
+    ParticleReport report;
+    report.secondsAGroup = session.schedule.seconds;
+    std::cerr << "This takes about " << roughly(double(groups.size()) * (report.secondsAGroup * 1.2 + 3))
+              << ".\n";
+    Progress bar("groups", int(groups.size()));
+    for (const std::vector<ParticleCase>& group : groups) {
+        for (ParticleTimes& times : measureParticles(group, point, quad, session.device, session.schedule))
+            report.times.push_back(std::move(times));
+        bar.step();
+    }
+    session.end();
+    report.machine = session.machine;
+    std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
+    return 0;
+}
+
+}  // namespace shoal::app

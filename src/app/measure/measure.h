@@ -1,0 +1,46 @@
+// The reports of `shoal measure`, as tables, JSON or CSV, and what the commands that measure a scene share.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/line/commands.h"
+#include "app/line/options.h"
+#include "app/run/report.h"
+#include "gpu/context.h"
+#include "measure/accuracy.h"
+#include "measure/calibrate.h"
+
+namespace shoal::app {
+
+struct MeasureReport {
+    MeasuredOn machine;
+    measure::AccuracyReport accuracy;
+    double target = 1e-3;                        // relative error
+    std::optional<measure::Calibration> chosen;  // what the calibration takes for it
+    std::string notChosen;                       // why there is none
+};
+
+// One point: what was chosen; null without.
+const measure::AccuracyPoint* chosenPoint(const MeasureReport& report);
+
+std::string asText(const MeasureReport& report);
+JsonValue asJson(const MeasureReport& report);
+// A row a point; the first names the columns.
+std::string asCsv(const MeasureReport& report);
+
+// A calibration as text, also for `explain`.
+std::string asText(const measure::Calibration& calibration);
+std::string oneLine(const measure::Calibration& calibration);
+
+// Returns the options that --error, --solver, --substeps, --field-sampling and --duration ask for.
+measure::CalibrationOptions calibrationOptions(const Options& options);
+measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context);
+
+// For --error: finds the method, puts it into the scene and compiles that; warnings go to standard error.
+measure::Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded);
+
+// Chooses and sweeps, with progress on standard error.
+MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);
+
+}  // namespace shoal::app

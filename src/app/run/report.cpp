@@ -1,0 +1,111 @@
+#include "app/run/report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "core/error.h"
+#include "core/printable.h"
+
+namespace shoal::app {
+
+void appendDeviceTime(JsonValue& out, const measure::Spread& device) {
+    std::optional<double> min, median;
+    if (device.samples > 0) min = device.min, median = device.median;
+    append(out, key("deviceMinSeconds", min), key("deviceMedianSeconds", median));
+}
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return "unknown processor";
+}
+
+MeasuredOn measuredOn(const gpu::Context& context) {
+    return {processorName(), int(std::max(1u, std::thread::hardware_concurrency())), 0, context.info()};
+}
+
+std::string asText(const MeasuredOn& machine) {
+    std::string out =
+        concat(machine.processor, ", ", machine.cores, machine.cores == 1 ? " core; " : " cores; ",
+               machine.context.renderer, ", OpenGL ", machine.context.version);
+    if (machine.pinned > 0) out += concat("; ", machine.pinned, " rasteriser threads pinned");
+    return out;
+}
+
+JsonValue asJson(const gpu::ContextInfo& context) {
+    return object(key("kind", gpu::name(context.kind)), key("renderer", context.renderer),
+                  key("version", context.version), key("software", context.software));
+}
+
+JsonValue headOf(const MeasuredOn& machine) {
+    return object(key("version", SHOAL_VERSION), key("processor", machine.processor),
+                  key("cores", machine.cores), key("pinnedRasteriserThreads", machine.pinned),
+                  key("renderer", machine.context.renderer), key("openGL", machine.context.version));
+}
+
+static JsonValue asJson(const gpu::Traffic& traffic) {
+    JsonValue out = object();
+    for (int i = 0; i < gpu::Traffic::kinds; ++i)
+        append(out, key(gpu::Traffic::names[i],
+                        object(key("uploaded", traffic.uploaded[i]), key("readBack", traffic.readBack[i]))));
+    return out;
+}
+
+static JsonValue asJson(const GroupLives& lives) {
+    const LifeCounts& n = lives.counts;
+    return object(key("group", lives.group), key("capacity", n.capacity), key("living", n.live),
+                  key("reach", n.mark), key("born", n.born), key("lost", n.lost));
+}
+
+std::vector<GroupLives> livesOf(const Simulation& simulation) {
+    std::vector<GroupLives> out;
+    const std::vector<GroupPlan>& groups = simulation.plan().groups;
+    for (size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].needs.life)
+            out.push_back({groups[g].name, simulation.lifeCounts(g), groups[g].life->cycle.allocator});
+    return out;
+}
+
+std::string text(const GroupLives& lives) {
+    const LifeCounts& n = lives.counts;
+    const char* why = lives.allocator == Allocator::ring ? "cut short (the ring gives the oldest place away"
+                                                         : "lost (no place was free";
+    const std::string lost =
+        n.lost > 0 ? concat(", ", n.lost, " ", why, ": a larger \"capacity\" or --count holds more)") : "";
+    return concat(printable(lives.group), ": ", n.live, " of ", n.capacity, " places taken, ", n.born,
+                  " born", lost);
+}
+
+JsonValue asJson(const gpu::PassTime& pass) {
+    return object(key("stage", pass.name), key("callsPerFrame", pass.calls), key("minSeconds", pass.min),
+                  key("medianSeconds", pass.median));
+}
+
+JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
+                 uint64_t hash) {
+    const gpu::ContextInfo& info = simulation.context().info();
+    const JsonValue context = object(key("kind", gpu::name(info.kind)), key("renderer", info.renderer),
+                                     key("version", info.version));
+    const JsonValue bytes = object(key("start", asJson(report.start)), key("frames", asJson(report.frames)),
+                                   key("outside", asJson(report.outside)));
+    JsonValue out = object(key("scene", report.scene), key("path", name(simulation.path().path)),
+                           key("context", context), key("frames", simulation.frames()),
+                           key("time", simulation.time()), key("seconds", report.seconds),
+                           key("stateBytes", simulation.stateBytes()), key("busBytes", bytes),
+                           key("hash", formatted("%016llx", static_cast<unsigned long long>(hash))));
+    if (!times.empty()) append(out, key("stages", arrayOf(times, asJson)));
+    append(out, key("written", report.written));
+    if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
+    if (const ContactResult* contact = simulation.contact()) {
+        const ContactConvergence ended = contact->convergence();
+        append(out, key("contactBytes", contact->bytes()), key("contactsDropped", contact->dropped()),
+               key("contactIterations", ended.iterations), key("contactResidual", ended.residual));
+    }
+    return out;
+}
+
+}  // namespace shoal::app
