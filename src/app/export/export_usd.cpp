@@ -7,60 +7,17 @@
 #include "core/error.h"
 #include "core/json_build.h"
 #include "core/printable.h"
-#include "exchange/animation_texture.h"
+#include "exchange/rigid_fit.h"
 #include "exchange/usda.h"
 #include "run/progress.h"
 #include "run/signals.h"
 
 namespace shoal::app {
 
-using exchange::DrawnMesh, exchange::GroupMesh, exchange::UsdMoving, exchange::UsdSample, exchange::UsdStage;
+using exchange::DrawnMesh, exchange::GroupMesh, exchange::RigidFit, exchange::UsdMoving, exchange::UsdSample,
+    exchange::UsdStage;
 
 namespace {
-
-// A group's molecules as one shape at rest that turns and moves.
-class RigidFit {
-  public:
-    RigidFit(const GroupMesh& mesh, const GroupPlan& plan) : scales_(plan.constants.scales) {
-        scales_.resize(size_t(plan.count), 1);
-        const std::vector<glm::dvec3> places = mesh.restPlaces();
-        mesh.place({places, {}}, rest_, normals_);
-        glm::dvec3 middle(0);
-        for (const glm::dvec3& x : rest_)
-            middle += x / double(rest_.size());
-        for (glm::dvec3& x : rest_)
-            x -= middle;
-    }
-
-    // Returns the rigid motion that brings the rest shape nearest to the drawn molecule m.
-    exchange::RigidMotion motion(size_t m, const std::vector<glm::dvec3>& places) {
-        std::vector<glm::dvec3> scaled;
-        for (const glm::dvec3& x : rest_)
-            scaled.push_back(double(scales_[m]) * x);
-        const exchange::RigidMotion out = exchange::rigidMotion(scaled, places);
-        worst_ = std::max(worst_, out.worst);
-        return out;
-    }
-    void look(const GroupMesh& mesh, const Snapshot& state) {
-        for (size_t m = 0; m < size_t(state.count); ++m) {
-            std::vector<glm::dvec3> places;
-            std::vector<glm::vec3> normals;
-            mesh.place(moleculeIn(state, m), places, normals);
-            motion(m, places);
-        }
-    }
-
-    const std::vector<glm::dvec3>& rest() const { return rest_; }  // m, about its middle
-    const std::vector<glm::vec3>& normals() const { return normals_; }
-    const std::vector<float>& scales() const { return scales_; }
-    double worst() const { return worst_; }  // m
-
-  private:
-    std::vector<glm::dvec3> rest_;
-    std::vector<glm::vec3> normals_;
-    std::vector<float> scales_;
-    double worst_ = 0;
-};
 
 struct Rigidity {
     bool asInstances = false;
@@ -87,7 +44,7 @@ class UsdGroup {
             molecules.push_back(moleculeIn(state, m));
         DrawnMesh mesh = mesh_.mesh(std::span(molecules).first(rigid ? 1 : molecules.size()));
         if (rigid) {
-            fit_.emplace(mesh_, *plan_);
+            fit_.emplace(mesh_, plan_->constants.scales, plan_->count);
             for (const glm::dvec3& x : fit_->rest())
                 mesh.positions.emplace_back(x);
             mesh.normals = fit_->normals();
@@ -201,12 +158,20 @@ std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene
     for (size_t g = 0; g < plans.size(); ++g) {
         if (plans[g].count == 0 || plans[g].needs.life) continue;
         meshes[g].emplace(scene.groups[plans[g].index]);
-        if (!meshes[g]->points()) fits[g].emplace(*meshes[g], plans[g]);
+        if (!meshes[g]->points()) fits[g].emplace(*meshes[g], plans[g].constants.scales, plans[g].count);
     }
     const SavedState start = simulation.save();
     eachFrame(simulation, asked.frames, [&](int) {
-        for (size_t g = 0; g < fits.size(); ++g)
-            if (fits[g]) fits[g]->look(*meshes[g], simulation.snapshot(g));
+        for (size_t g = 0; g < fits.size(); ++g) {
+            if (!fits[g]) continue;
+            const Snapshot state = simulation.snapshot(g);
+            for (size_t m = 0; m < size_t(state.count); ++m) {
+                std::vector<glm::dvec3> places;
+                std::vector<glm::vec3> normals;
+                meshes[g]->place(moleculeIn(state, m), places, normals);
+                fits[g]->motion(m, places);
+            }
+        }
     });
     simulation.load(start);
     for (size_t g = 0; g < fits.size(); ++g)
