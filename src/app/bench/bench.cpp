@@ -128,7 +128,7 @@ static DrawMaker drawMaker(gpu::Context& context) {
 BenchSession::BenchSession(const Options& options, double usual, double quick)
     : context(hiddenContext(options)),
       contextSeconds(measure::secondsSince(start)),
-      machine(measuredOn(context)),
+      machine(bench::measuredOn(context, SHOAL_VERSION)),
       device{&context, drawMaker(context), machine.cores, false, !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
 }

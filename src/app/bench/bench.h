@@ -1,20 +1,14 @@
-// The reports of `shoal bench`, as tables, plain sentences, or JSON, and what its commands share.
+// What the commands of `shoal bench` share.
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "app/line/options.h"
-#include "app/run/report.h"
-#include "bench/bench.h"
-#include "bench/collide.h"
-#include "bench/particles.h"
+#include "bench/reports.h"
 #include "run/progress.h"
 
 namespace shoal::app {
-
-constexpr int pictureWidth = 640, pictureHeight = 360;
 
 // A benchmark runs in a session: its options, context and time. Each group of cases takes the seconds that
 // the options say, or the usual ones.
@@ -26,7 +20,7 @@ struct BenchSession {
     measure::Clock::time_point start = measure::Clock::now();
     gpu::Context context;
     double contextSeconds;  // to make it
-    MeasuredOn machine;
+    bench::MeasuredOn machine;
     bench::BenchDevice device;
     measure::Schedule schedule;
 };
@@ -48,47 +42,8 @@ class WholeRun {
     measure::Clock::time_point start_ = measure::Clock::now();
 };
 
-JsonValue asJson(const std::vector<bench::Target>& targets);
-// The table of the targets in a report's JSON; without `whole` of those that were measured.
-std::string targetText(const JsonValue& report, bool whole = true);
-
-struct BenchReport {
-    MeasuredOn machine;
-    bool quick = false;
-    bool whole = true;  // everything was asked for
-    double secondsAGroup = 0;
-    double seconds = 0;         // the whole run
-    double contextSeconds = 0;  // to make the context
-    std::vector<bench::BenchResult> results;
-    std::vector<bench::BenchError> errors;
-    std::vector<bench::StartTime> starts;
-    std::vector<bench::PassTable> passes;
-};
-
 // Measures what `--only` asks for. Error: nothing is called so.
-BenchReport measureSpeeds(const Options& options, BenchSession& session);
+bench::BenchReport measureSpeeds(const Options& options, BenchSession& session);
 bool hasSpeeds(const Options& options);  // whether something is
-
-std::string asText(const BenchReport& report);
-JsonValue asJson(const BenchReport& report);
-
-struct CollideReport {
-    MeasuredOn machine;
-    double secondsAGroup = 0;
-    std::vector<bench::ContactTimes> contact;
-    std::optional<bench::SearchReport> searches;
-};
-
-std::string asText(const CollideReport& report);
-JsonValue asJson(const CollideReport& report);
-
-struct ParticleReport {
-    MeasuredOn machine;
-    double secondsAGroup = 0;
-    std::vector<bench::ParticleTimes> times;
-};
-
-std::string asText(const ParticleReport& report);
-JsonValue asJson(const ParticleReport& report);
 
 }  // namespace shoal::app

@@ -91,7 +91,7 @@ CalibrationOptions calibrationOptions(const Options& options) {
     out.duration = options.duration;
     out.seconds = options.errorSeconds;
     out.version = SHOAL_VERSION;
-    out.processor = processorName();
+    out.processor = bench::processorName();
     out.folder = cacheFolder();
     return out;
 }
@@ -121,7 +121,7 @@ Calibration calibrated(const Options& options, gpu::Context& context, Loaded& lo
 
 MeasureReport measureScene(const Scene& scene, const Options& options, const AccuracyDevice& device) {
     MeasureReport report;
-    report.machine = measuredOn(*device.context);
+    report.machine = bench::measuredOn(*device.context, SHOAL_VERSION);
     report.target = options.error.value_or(1e-3);
     AccuracyOptions wanted = accuracyOptions(options);
     wanted.extra = [&] {

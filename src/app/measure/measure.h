@@ -6,7 +6,7 @@
 
 #include "app/line/commands.h"
 #include "app/line/options.h"
-#include "app/run/report.h"
+#include "bench/machine.h"
 #include "gpu/context.h"
 #include "measure/accuracy.h"
 #include "measure/calibrate.h"
@@ -14,7 +14,7 @@
 namespace shoal::app {
 
 struct MeasureReport {
-    MeasuredOn machine;
+    bench::MeasuredOn machine;
     measure::AccuracyReport accuracy;
     double target = 1e-3;                        // relative error
     std::optional<measure::Calibration> chosen;  // what the calibration takes for it

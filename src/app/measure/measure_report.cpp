@@ -222,10 +222,10 @@ JsonValue asJson(const MeasureReport& report) {
         key("version", SHOAL_VERSION),
         key("machine",
             object(key("processor", report.machine.processor), key("cores", report.machine.cores))),
-        key("context", asJson(report.machine.context)), key("scene", a.scene), key("path", name(a.path)),
-        key("frameRate", a.frameRate), key("duration", a.duration), key("seconds", a.seconds),
-        key("groups", arrayOf(a.groups, asJson)), key("chaotic", orNull(a.chaotic)),
-        key("tooStiff", orNull(a.tooStiff)),
+        key("context", bench::asJson(report.machine.context)), key("scene", a.scene),
+        key("path", name(a.path)), key("frameRate", a.frameRate), key("duration", a.duration),
+        key("seconds", a.seconds), key("groups", arrayOf(a.groups, asJson)),
+        key("chaotic", orNull(a.chaotic)), key("tooStiff", orNull(a.tooStiff)),
         key("referenceError", a.hasErrors() ? std::optional(a.referenceError) : std::nullopt),
         key("target", report.target), key("chosen", report.chosen ? asJson(*report.chosen) : JsonValue()));
     if (!report.chosen) append(out, key("notChosen", report.notChosen));

@@ -67,8 +67,8 @@ SceneCost sceneCost(const Options& options, const Loaded& loaded) {
     BenchDevice device;
     device.context = &context;
     device.ownTimes = !context.info().software;
-    SceneCost out{measuredOn(context), context.info().software,
-                  deviceRates(device, processorName(), cacheFolder()),
+    SceneCost out{bench::measuredOn(context, SHOAL_VERSION), context.info().software,
+                  deviceRates(device, bench::processorName(), cacheFolder()),
                   kernelCosts(loaded.scene, loaded.plan, choice, limits)};
     context.checkErrors("--cost");
     return out;

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "app/line/commands.h"
-#include "app/run/report.h"
+#include "bench/machine.h"
 #include "bench/rates.h"
 #include "compile/cost.h"
 
 namespace shoal::app {
 
 struct SceneCost {
-    MeasuredOn machine;
+    bench::MeasuredOn machine;
     bool software = false;
     std::optional<bench::DeviceRates> rates;  // nothing below OpenGL 4.3
     std::vector<KernelCost> kernels;          // a group each

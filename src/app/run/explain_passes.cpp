@@ -39,7 +39,7 @@ FramePasses framePasses(const Options& options, const Loaded& loaded) {
     const gpu::FrameRecord record;
     frame();
     context.checkErrors("--passes");
-    return {measuredOn(context), record.rows()};
+    return {bench::measuredOn(context, SHOAL_VERSION), record.rows()};
 }
 
 std::string asText(const FramePasses& passes) {

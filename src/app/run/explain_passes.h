@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "app/line/commands.h"
-#include "app/run/report.h"
+#include "bench/machine.h"
 #include "gpu/frame_record.h"
 
 namespace shoal::app {
 
 struct FramePasses {
-    MeasuredOn machine;
+    bench::MeasuredOn machine;
     std::vector<gpu::PassRow> rows;
 };
 

@@ -96,10 +96,10 @@ class SliceCanvas {
     }
 
     glm::dvec3 ground(double d) const {
-        const glm::dvec3 pale = d < 0 ? glm::dvec3(0.86, 0.92, 0.97) : glm::dvec3(0.99, 0.96, 0.90);
+        const glm::dvec3 bright = d < 0 ? glm::dvec3(0.86, 0.92, 0.97) : glm::dvec3(0.99, 0.96, 0.90);
         const glm::dvec3 deep = d < 0 ? glm::dvec3(0.10, 0.27, 0.53) : glm::dvec3(0.76, 0.44, 0.16);
         const double range = d < 0 ? low_ : high_;
-        return glm::mix(pale, deep, std::pow(std::clamp(d / range, 0.0, 1.0), 0.8));
+        return glm::mix(bright, deep, std::pow(std::clamp(d / range, 0.0, 1.0), 0.8));
     }
 
     // Share of a pixel that a line of this width covers, from its middle's distance to it in pixels.

@@ -1,51 +1,9 @@
 #include "app/run/report.h"
 
-#include <algorithm>
-#include <fstream>
-#include <thread>
-
 #include "core/error.h"
 #include "core/printable.h"
 
 namespace shoal::app {
-
-void appendDeviceTime(JsonValue& out, const measure::Spread& device) {
-    std::optional<double> min, median;
-    if (device.samples > 0) min = device.min, median = device.median;
-    append(out, key("deviceMinSeconds", min), key("deviceMedianSeconds", median));
-}
-
-std::string processorName() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const size_t colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
-    }
-    return "unknown processor";
-}
-
-MeasuredOn measuredOn(const gpu::Context& context) {
-    return {processorName(), int(std::max(1u, std::thread::hardware_concurrency())), 0, context.info()};
-}
-
-std::string asText(const MeasuredOn& machine) {
-    std::string out =
-        concat(machine.processor, ", ", machine.cores, machine.cores == 1 ? " core; " : " cores; ",
-               machine.context.renderer, ", OpenGL ", machine.context.version);
-    if (machine.pinned > 0) out += concat("; ", machine.pinned, " rasteriser threads pinned");
-    return out;
-}
-
-JsonValue asJson(const gpu::ContextInfo& context) {
-    return object(key("kind", gpu::name(context.kind)), key("renderer", context.renderer),
-                  key("version", context.version), key("software", context.software));
-}
-
-JsonValue headOf(const MeasuredOn& machine) {
-    return object(key("version", SHOAL_VERSION), key("processor", machine.processor),
-                  key("cores", machine.cores), key("pinnedRasteriserThreads", machine.pinned),
-                  key("renderer", machine.context.renderer), key("openGL", machine.context.version));
-}
 
 static JsonValue asJson(const gpu::Traffic& traffic) {
     JsonValue out = object();
@@ -80,11 +38,6 @@ std::string text(const GroupLives& lives) {
                   " born", lost);
 }
 
-JsonValue asJson(const gpu::PassTime& pass) {
-    return object(key("stage", pass.name), key("callsPerFrame", pass.calls), key("minSeconds", pass.min),
-                  key("medianSeconds", pass.median));
-}
-
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
                  uint64_t hash) {
     const gpu::ContextInfo& info = simulation.context().info();
@@ -97,7 +50,7 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
                            key("time", simulation.time()), key("seconds", report.seconds),
                            key("stateBytes", simulation.stateBytes()), key("busBytes", bytes),
                            key("hash", formatted("%016llx", static_cast<unsigned long long>(hash))));
-    if (!times.empty()) append(out, key("stages", arrayOf(times, asJson)));
+    if (!times.empty()) append(out, key("stages", arrayOf(times, bench::asJson)));
     append(out, key("written", report.written));
     if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
     if (const ContactResult* contact = simulation.contact()) {

@@ -1,12 +1,10 @@
-#include "app/bench/bench.h"
+#include "bench/reports.h"
 
 #include <sstream>
 
 #include "core/table.h"
 
-namespace shoal::app {
-
-using namespace bench;
+namespace shoal::bench {
 
 namespace {
 
@@ -107,4 +105,4 @@ std::string asText(const BenchReport& report) {
     return out.str();
 }
 
-}  // namespace shoal::app
+}  // namespace shoal::bench

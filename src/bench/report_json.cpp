@@ -1,8 +1,6 @@
-#include "app/bench/bench.h"
+#include "bench/reports.h"
 
-namespace shoal::app {
-
-using namespace bench;
+namespace shoal::bench {
 
 namespace {
 
@@ -68,7 +66,7 @@ JsonValue asJson(const PassTable& table) {
     return object(key("molecule", "quad"), key("count", table.count), key("subject", name(table.subject)),
                   key("solver", shoal::name(table.solver)), key("frameMinSeconds", table.frame.min),
                   key("frameMedianSeconds", table.frame.median),
-                  key("passes", arrayOf(table.passes, app::asJson)));
+                  key("passes", arrayOf(table.passes, bench::asJson)));
 }
 
 }  // namespace
@@ -88,7 +86,7 @@ JsonValue asJson(const BenchReport& report) {
         errors.items.push_back(asJson(error, report.results));
     const JsonValue start = object(key("contextSeconds", report.contextSeconds),
                                    key("simulations", arrayOf(report.starts, asJson)));
-    return object(key("version", SHOAL_VERSION), key("machine", machine),
+    return object(key("version", report.machine.version), key("machine", machine),
                   key("context", asJson(report.machine.context)), key("quick", report.quick),
                   key("pictureSize", concat(pictureWidth, "x", pictureHeight)),
                   key("secondsAGroup", report.secondsAGroup), key("seconds", report.seconds),
@@ -98,4 +96,4 @@ JsonValue asJson(const BenchReport& report) {
                   key("targets", arrayOf(targets(report.results, report.machine.context.software), asJson)));
 }
 
-}  // namespace shoal::app
+}  // namespace shoal::bench

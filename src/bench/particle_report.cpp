@@ -1,13 +1,11 @@
-#include "app/bench/bench.h"
+#include "bench/reports.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "core/table.h"
 
-namespace shoal::app {
-
-using namespace bench;
+namespace shoal::bench {
 
 namespace {
 
@@ -170,4 +168,4 @@ JsonValue asJson(const ParticleReport& report) {
                   key("targets", asJson(targets(report))));
 }
 
-}  // namespace shoal::app
+}  // namespace shoal::bench

@@ -1,9 +1,7 @@
-#include "app/bench/bench.h"
+#include "bench/reports.h"
 #include "core/table.h"
 
-namespace shoal::app {
-
-using namespace bench;
+namespace shoal::bench {
 
 namespace {
 
@@ -112,4 +110,4 @@ JsonValue asJson(const CollideReport& report) {
                   key("targets", asJson(targets(report))));
 }
 
-}  // namespace shoal::app
+}  // namespace shoal::bench
