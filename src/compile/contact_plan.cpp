@@ -16,6 +16,7 @@ namespace {
 constexpr size_t mostGroups = 64;
 constexpr int64_t mostSpheres = int64_t(1) << 27;
 constexpr double mostMassRatio = 1e6;  // floats have 7 digits
+constexpr double likeMasses = 10;
 
 // Up to 5 significant bits.
 double roundedUp(double length) {
@@ -123,19 +124,13 @@ void checkRest(const Scene& scene, int steps) {
 }
 
 // Refuses masses of which the larger leave nothing of the smaller in a float.
-void checkMasses(const Scene& scene, const std::vector<GroupPlan>& plans,
-                 const std::vector<ContactGroup>& groups) {
-    for (const ContactGroup& light : groups) {
-        for (const ContactGroup& heavy : groups) {
-            const double ratio = light.masses.x > 0 ? heavy.masses.y / light.masses.x : 0;
-            if (ratio <= mostMassRatio) continue;
-            const GroupPlan& plan = plans[heavy.group];
-            throw Error(
-                scene.groups[plan.index].contact->location,
-                concat("what contact moves of \"", plan.name, "\" is ", ratio, " times as heavy as of \"",
-                       plans[light.group].name, "\": at most ", mostMassRatio, " times can be told apart"));
-        }
-    }
+void checkMasses(const Scene& scene, const std::vector<GroupPlan>& plans, const ContactPlan::Masses& masses) {
+    if (masses.ratio <= mostMassRatio) return;
+    const GroupPlan& plan = plans[masses.heaviest->group];
+    throw Error(scene.groups[plan.index].contact->location,
+                concat("what contact moves of \"", plan.name, "\" is ", masses.ratio,
+                       " times as heavy as of \"", plans[masses.lightest->group].name, "\": at most ",
+                       mostMassRatio, " times can be told apart"));
 }
 
 }  // namespace
@@ -149,12 +144,26 @@ bool ContactPlan::mayRest(const GroupPlan& group) const {
     return settings.rest && !group.needs.actuation && !group.needs.steers;
 }
 
-float ContactPlan::momentum(int iteration, int iterations) {
-    return iteration == 0 ? 0 : std::max(std::min(0.8f, 1 - 1.6f / float(iterations)), 0.0f);
+float ContactPlan::momentum(int iteration, int iterations, bool unlikeMasses) {
+    if (iteration == 0) return 0;
+    const float first = std::max(std::min(0.8f, 1 - 1.6f / float(iterations)), 0.0f);
+    return unlikeMasses ? std::max(first, float(iteration) / float(iteration + 3)) : first;
 }
 
 double ContactPlan::carried(int iterations) {
-    return 2.5 * iterations / (1 - double(momentum(1, iterations)));
+    const double n = iterations;
+    return std::max(2.5 * n / (1 - double(momentum(1, iterations, true))), 0.25 * n * n);
+}
+
+ContactPlan::Masses ContactPlan::masses() const {
+    Masses out;
+    for (const ContactGroup& group : groups) {
+        if (group.masses.x == 0) continue;  // it is held
+        if (!out.lightest || group.masses.x < out.lightest->masses.x) out.lightest = &group;
+        if (!out.heaviest || group.masses.y > out.heaviest->masses.y) out.heaviest = &group;
+    }
+    if (out.lightest) out.ratio = out.heaviest->masses.y / out.lightest->masses.x;
+    return out;
 }
 
 double ContactPlan::safeSpeed(double frameTime) const {
@@ -192,7 +201,9 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     const int substeps = scene.solver.substeps;
     out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
     checkRest(scene, out.steps);
-    checkMasses(scene, groups, out.groups);
+    const ContactPlan::Masses masses = out.masses();
+    checkMasses(scene, groups, masses);
+    out.unlikeMasses = masses.ratio > likeMasses;
     // a little more, so that rounding loses nothing
     out.reach = (1 + 1e-5) * std::max(2 * ContactPlan::near * out.largestRadius,
                                       2 * out.largestRadius +

@@ -66,6 +66,7 @@ struct ContactPlan {
     int listLength = 24;  // spheres that one may touch, where there is room for them
     int steps = 1;        // of a frame
     ContactSettings settings;
+    bool unlikeMasses = false;  // of what contact moves: more than ten times apart
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
 
@@ -84,12 +85,20 @@ struct ContactPlan {
     // So many times its own mass a sphere carries at rest, with so many iterations; under more it sways, or
     // what lies on it sinks in. Measured: docs/contact-figures.md.
     static double carried(int iterations);
+    // The lightest and the heaviest of what contact moves, and how many times as heavy it is; null where all
+    // is held.
+    struct Masses {
+        const ContactGroup *lightest = nullptr, *heaviest = nullptr;
+        double ratio = 1;
+    };
+    Masses masses() const;
     // Rounds of impacts in a step.
     static constexpr int mostRounds = 4;
     // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
     // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
-    // it, and where friction slides 0.9 of it does not converge.
-    static float momentum(int iteration, int iterations);
+    // it. Unlike masses take what is smoother still, which momentum that grows as Nesterov's k / (k + 3)
+    // finds soonest; else it leaves more after many iterations.
+    static float momentum(int iteration, int iterations, bool unlikeMasses);
     // m/s: spheres that move faster relative to one another may pass through each other between two contact
     // steps.
     double safeSpeed(double frameTime) const;

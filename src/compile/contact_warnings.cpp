@@ -107,27 +107,20 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
 void warnOfMasses(const Scene& scene, Plan& plan) {
     const ContactPlan& contact = plan.contact;
     if (!contact.remembers() || scene.gravity == glm::dvec3(0)) return;
-    const ContactGroup *light = nullptr, *heavy = nullptr;
-    for (const ContactGroup& group : contact.groups) {
-        if (group.masses.x == 0) continue;  // it is held
-        if (!light || group.masses.x < light->masses.x) light = &group;
-        if (!heavy || group.masses.y > heavy->masses.y) heavy = &group;
-    }
-    if (!light) return;
-    const double ratio = heavy->masses.y / light->masses.x;
-    if (ratio <= ContactPlan::carried(contact.settings.iterations)) return;
+    const ContactPlan::Masses masses = contact.masses();
+    if (masses.ratio <= ContactPlan::carried(contact.settings.iterations)) return;
     constexpr int most = ContactSettings::mostIterations;
     int needed = 1;
-    while (needed <= most && ContactPlan::carried(needed) < ratio)
+    while (needed <= most && ContactPlan::carried(needed) < masses.ratio)
         ++needed;
     plan.warnings.push_back(
-        {scene.groups[plan.groups[heavy->group].index].contact->location,
-         concat("what contact moves of \"", plan.groups[heavy->group].name, "\" is ", upToTwoDigits(ratio),
-                " times as heavy as of \"", plan.groups[light->group].name,
-                "\": where it lies on that, it sinks in or sways",
+        {scene.groups[plan.groups[masses.heaviest->group].index].contact->location,
+         concat("what contact moves of \"", plan.groups[masses.heaviest->group].name, "\" is ",
+                upToTwoDigits(masses.ratio), " times as heavy as of \"",
+                plan.groups[masses.lightest->group].name, "\": where it lies on that, it sinks in or sways",
                 needed > most
                     ? concat(", since ", most, " \"iterations\", which are the most, carry ",
-                             ContactPlan::carried(most), " times the mass")
+                             std::floor(ContactPlan::carried(most)), " times the mass")
                     : concat(" with less than ", needed, " \"iterations\", and in a tower with more"))});
 }
 

@@ -144,8 +144,10 @@ ContactSolver::Iteration ContactSolver::iteration(int number) const {
     const int iterations = data_->contact->settings.iterations;
     const int batch = std::max(0, (number - iterations % 2) / 2);
     const bool isLast = number > 0 && (iterations - number) % 2 == 1;
-    return {number, batch, isLast, ContactPlan::momentum(number, iterations),
-            ContactPlan::momentum(number + 1, iterations)};
+    const auto momentum = [&](int i) {
+        return ContactPlan::momentum(i, iterations, data_->contact->unlikeMasses);
+    };
+    return {number, batch, isLast, momentum(number), momentum(number + 1)};
 }
 
 void ContactSolver::solve(const ContactStep& times, const Iteration& iteration) {
