@@ -3,6 +3,7 @@
 
 A key is a name and a year in square brackets, perhaps with a place behind it: [Name 1999], [Name 1999, section 2].
 A name and a year in round brackets, or with "et al.", is a citation without a key, and fails as well.
+So does a CITATION.cff, by which Shoal itself is cited, or a README.md that states another version than CMakeLists.txt.
 """
 import pathlib
 import re
@@ -21,12 +22,24 @@ def text(file):
     return re.sub(r"\s*\n[ \t]*(?://+|#)?[ \t]*", " ", file.read_text(encoding="utf-8"))
 
 
+def versions():
+    """What is wrong with the versions that are stated; the README has the first two numbers of it."""
+    project = re.search(r"^project\(Shoal VERSION ((\d+\.\d+)\.\d+)\s", (root / "CMakeLists.txt").read_text(), re.M)
+    if not project:
+        return ["CMakeLists.txt: expected project(Shoal VERSION, and three numbers"]
+    stated = {"CITATION.cff": (r"^version: (.*)$", project[1]), "README.md": (r"^Version (\d[\d.]*\d)", project[2])}
+    found = {file: re.findall(pattern, (root / file).read_text(encoding="utf-8"), re.M)
+             for file, (pattern, _) in stated.items()}
+    return [f"{file}: expected version {version}, as CMakeLists.txt has it, found {', '.join(found[file]) or 'none'}"
+            for file, (_, version) in stated.items() if found[file] != [version]]
+
+
 def main():
     bibliography = root / "docs/references.md"
     entries = re.findall(rf"^- \[({name} {year})\] ", bibliography.read_text(encoding="utf-8"), re.M)
     folders = ["src", "shaders", "tests", "docs", "models", "molecules"]
     files = [f for folder in folders for f in (root / folder).rglob("*") if f.suffix in endings] + [root / "README.md"]
-    failures, used = [], set()
+    failures, used = versions(), set()
     for file in files:
         if file in (bibliography, pathlib.Path(__file__).resolve()):
             continue
