@@ -92,7 +92,7 @@ void holds(const std::string& name, const HardCase& hardCase) {
         INFO(name << ", " << solvers()[i].name << ": " << outcome.figure);
         const bool refused = onPingPong() && solvers()[i].implicit;
         const std::optional<Verdict> expected = refused ? Verdict::refuses : expectedOf(name, solvers()[i]);
-        // docs/hard-cases.md lacks a row or a column: SHOAL_UPDATE_HARD=1 writes it
+        // docs/hard-cases.tsv lacks a case or a solver: SHOAL_UPDATE_HARD=1 writes it
         CHECK(std::string(word(outcome.verdict)) == (expected ? word(*expected) : "nothing"));
     }
 }

@@ -1,7 +1,7 @@
 // A hard case is run by every solver of the table and has an outcome with each: it passes, it refuses (an
 // Error before the first frame says why), or it fails honestly with a finite figure. Which one is written
-// down in docs/hard-cases.md; another outcome, better or worse, turns the test red, and so does any value
-// that is not finite. SHOAL_UPDATE_HARD=1 renews the document (hard/table.h).
+// down in docs/hard-cases.tsv; another outcome, better or worse, turns the test red, and so does any value
+// that is not finite. SHOAL_UPDATE_HARD=1 renews it (hard/table.h).
 #pragma once
 
 #include <functional>
@@ -42,7 +42,7 @@ class Judge {
 // Runs the case with one solver, which its scenes must name. Throws what the simulation throws.
 using HardCase = std::function<void(const Solver& solver, Judge& judge)>;
 
-// Runs it with every solver and compares with the row `name` of the document.
+// Runs it with every solver and compares with the case `name` of that file.
 void holds(const std::string& name, const HardCase& hardCase);
 
 // Simulations of this run take the ping-pong path, on which an implicit solver is refused.

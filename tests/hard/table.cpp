@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "core/file.h"
@@ -14,87 +15,93 @@ namespace shoal::test {
 namespace {
 
 constexpr const char* document = SHOAL_SOURCE_DIR "/docs/hard-cases.md";
+constexpr const char* figuresFile = SHOAL_SOURCE_DIR "/docs/hard-cases.tsv";
 
-// Of a row of a Markdown table, without the spaces around them.
-std::vector<std::string> cellsOf(const std::string& line) {
-    std::vector<std::string> out;
-    std::istringstream in(line.substr(1));
-    for (std::string cell; std::getline(in, cell, '|');) {
-        const size_t from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
-        out.push_back(from == std::string::npos ? "" : cell.substr(from, to - from + 1));
-    }
-    return out;
-}
-
-std::optional<Verdict> verdictOf(std::string cell) {
-    std::erase(cell, '*');
+std::optional<Verdict> verdictOf(const std::string& text) {
     for (const Verdict verdict : {Verdict::passes, Verdict::refuses, Verdict::fails})
-        if (cell.substr(0, cell.find(':')) == word(verdict)) return verdict;
+        if (text == word(verdict)) return verdict;
     return {};
 }
 
-// A refusal's message names numbers of the scene: the word says it, the document explains.
-std::string cellOf(const Outcome& outcome) {
-    if (outcome.verdict == Verdict::refuses || outcome.figure.empty()) return word(outcome.verdict);
-    const std::string text = concat(word(outcome.verdict), ": ", outcome.figure);
-    return outcome.verdict == Verdict::passes ? text : concat("**", text, "**");
-}
-
-// The document around its table, and the table's rows in their order with a cell for each solver that it
-// knows.
-struct Document {
+// Outcomes of cases in their order, as the file has them.
+class Table {
+  public:
     struct Row {
         std::string name;
-        std::map<std::string, std::string> cells;  // by the solver's name
+        std::map<std::string, Outcome> outcomes;  // by the solver's name
     };
-    std::string before, after;
-    std::vector<Row> rows;
 
-    Document() {
-        std::istringstream in(readFile(document));
-        std::vector<std::string> head;
-        for (std::string line; std::getline(in, line);) {
-            const bool inTable = !head.empty() && after.empty() && line.starts_with("|");
-            if (head.empty() && line.starts_with("| case |"))
-                head = cellsOf(line);
-            else if (inTable && !line.starts_with("|---"))
-                addRow(head, cellsOf(line));
-            else if (!inTable)
-                (head.empty() ? before : after) += line + "\n";
+    Table() {
+        std::istringstream in(readFile(figuresFile));
+        std::string line;
+        std::getline(in, line);  // the head
+        while (std::getline(in, line)) {
+            std::istringstream cells(line);
+            std::string name, solver, text, figure;
+            std::getline(cells, name, '\t');
+            std::getline(cells, solver, '\t');
+            std::getline(cells, text, '\t');
+            std::getline(cells, figure);
+            if (const std::optional<Verdict> verdict = verdictOf(text))
+                (*this)[name].outcomes[solver] = {*verdict, figure};
         }
     }
-    void addRow(const std::vector<std::string>& head, const std::vector<std::string>& cells) {
-        Row& row = rows.emplace_back(Row{cells.at(0), {}});
-        for (size_t i = 1; i < cells.size(); ++i)
-            row.cells[head.at(i)] = cells[i];
+
+    // Returns the row of that name, which is made at the end where there is none.
+    Row& operator[](const std::string& name) {
+        for (Row& row : rows_)
+            if (row.name == name) return row;
+        return rows_.emplace_back(Row{name, {}});
     }
-    Row* row(const std::string& name) {
-        const auto found =
-            std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
-        return found == rows.end() ? nullptr : &*found;
+
+    // A refusal's message names numbers of the scene: its figures are left out, and the document explains.
+    std::string text() const {
+        std::string out = "case\tsolver\toutcome\tfigures\n";
+        for (const Row& row : rows_) {
+            for (const Solver& solver : solvers()) {
+                const auto found = row.outcomes.find(solver.name);
+                if (found == row.outcomes.end()) continue;
+                const auto& [verdict, figure] = found->second;
+                out += concat(row.name, "\t", solver.name, "\t", word(verdict), "\t",
+                              verdict == Verdict::refuses ? "" : figure, "\n");
+            }
+        }
+        return out;
     }
-    void write() const {
-        std::string table = "| case |", line = "|---|";
+
+    std::string markdown() const {
+        std::string out = "| case |", line = "|---|";
         for (const Solver& solver : solvers()) {
-            table += concat(" ", solver.name, " |");
+            out += concat(" ", solver.name, " |");
             line += "---|";
         }
-        table += "\n" + line + "\n";
-        for (const Row& row : rows) {
-            table += concat("| ", row.name, " |");
+        out += "\n" + line + "\n";
+        for (const Row& row : rows_) {
+            out += concat("| ", row.name, " |");
             for (const Solver& solver : solvers()) {
-                const auto cell = row.cells.find(solver.name);
-                table += concat(" ", cell == row.cells.end() ? "" : cell->second, " |");
+                const auto found = row.outcomes.find(solver.name);
+                const std::string verdict = found == row.outcomes.end() ? "" : word(found->second.verdict);
+                out += concat(" ", verdict == word(Verdict::fails) ? "**" + verdict + "**" : verdict, " |");
             }
-            table += "\n";
+            out += "\n";
         }
-        writeFile(document, before + table + after);
+        return out;
     }
+
+  private:
+    std::vector<Row> rows_;
 };
 
-Document& documented() {
-    static Document one;
-    return one;
+Table& documented() {
+    static Table table;
+    return table;
+}
+
+// Returns the document with this table.
+std::string documentWith(const std::string& table) {
+    std::string text = readFile(document);
+    const size_t start = text.find("| case |"), end = text.find("\n\n", start);
+    return text.replace(start, end + 1 - start, table);
 }
 
 #if __has_include(<catch2/catch_all.hpp>)
@@ -106,7 +113,9 @@ using Listener = Catch::TestEventListenerBase;
 struct TableWriter : Listener {
     using Listener::Listener;
     void testRunEnded(const Catch::TestRunStats&) override {
-        if (updatesTable()) documented().write();
+        if (!updatesTable()) return;
+        writeFile(figuresFile, documented().text());
+        writeFile(document, documentWith(documented().markdown()));
     }
 };
 CATCH_REGISTER_LISTENER(TableWriter)
@@ -114,10 +123,9 @@ CATCH_REGISTER_LISTENER(TableWriter)
 }  // namespace
 
 std::optional<Verdict> expectedOf(const std::string& name, const Solver& solver) {
-    const Document::Row* row = documented().row(name);
-    if (!row) return {};
-    const auto cell = row->cells.find(solver.name);
-    return cell == row->cells.end() ? std::nullopt : verdictOf(cell->second);
+    const auto& outcomes = documented()[name].outcomes;
+    const auto found = outcomes.find(solver.name);
+    return found == outcomes.end() ? std::nullopt : std::optional(found->second.verdict);
 }
 
 bool updatesTable() {
@@ -127,10 +135,12 @@ bool updatesTable() {
 void record(const std::string& name, size_t solver, const Outcome& outcome) {
     if (!updatesTable() || outcome.verdict == Verdict::notFinite) return;
     const Solver& by = solvers()[solver];
-    if (expectedOf(name, by) == outcome.verdict) return;
-    Document::Row* row = documented().row(name);
-    if (!row) row = &documented().rows.emplace_back(Document::Row{name, {}});
-    row->cells[by.name] = cellOf(outcome);
+    if (expectedOf(name, by) != outcome.verdict) documented()[name].outcomes[by.name] = outcome;
+}
+
+TEST_CASE("the table of hard cases is what their figures say", "[table]") {
+    CHECK(readFile(figuresFile) == documented().text());
+    CHECK(readFile(document) == documentWith(documented().markdown()));
 }
 
 }  // namespace shoal::test

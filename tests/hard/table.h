@@ -1,4 +1,5 @@
-// The table of docs/hard-cases.md: what each solver is expected to do in each case, and did.
+// The outcomes of docs/hard-cases.tsv, and the table of docs/hard-cases.md, which follows from them: what
+// each solver is expected to do in each case, and did.
 #pragma once
 
 #include <optional>
@@ -8,11 +9,11 @@
 
 namespace shoal::test {
 
-// What the document says; nothing where it has no such row or column.
+// What the file says; nothing where it has no such case or solver.
 std::optional<Verdict> expectedOf(const std::string& name, const Solver& solver);
 
-// Whether SHOAL_UPDATE_HARD asks for the document to be renewed when all tests have run: cells whose verdict
-// is another, or that it lacks, are written, and the others keep their figures.
+// Whether SHOAL_UPDATE_HARD asks for both to be renewed when all tests have run: outcomes whose verdict is
+// another, or that they lack, are written, and the others keep their figures.
 bool updatesTable();
 void record(const std::string& name, size_t solver, const Outcome& outcome);
 
