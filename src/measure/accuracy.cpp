@@ -282,8 +282,9 @@ class Sweep {
         const bool near = reference_->error() <= shareOfError * smallest;
         if (!near && settled_ == Settled::yes) settled_ = reference_->solve(shareOfError * smallest);
         if (!near && settled_ != Settled::yes)
-            out_.notes.push_back(concat("errors below ", reference_->error() / shareOfError,
-                                        " are uncertain: ", reference_->why()));
+            out_.notes.push_back(concat(
+                "errors below ", formatted("%.1e", reference_->error() / shareOfError),
+                " may be off by more than ", 100 * shareOfError, " % of themselves: ", reference_->why()));
         out_.referenceError = reference_->error();
         for (Curve& curve : curves_) {
             for (size_t i = 0; i < curve.points.size(); ++i) {

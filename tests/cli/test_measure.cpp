@@ -1,8 +1,11 @@
 // `shoal measure` and --error: what they report, keep and refuse.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
+#include <vector>
 
 #include "cli/shoal_command.h"
 #include "core/file.h"
@@ -100,7 +103,7 @@ TEST_CASE("measure reports every point as JSON and CSV", "[cli]") {
 TEST_CASE("measure prints a table, and says what it did otherwise", "[cli]") {
     const Scratch scratch;
     const std::string scene = shearScene(scratch, R"(, "release": {"force": 1})");
-    const Words words = quick(scene, {"--samplings", "vertexSubstep"});
+    const Words words = quick(scene, {"--samplings", "vertexSubstep", "--all"});
     const Outcome outcome = runShoal(words, cacheIn(scratch));
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -108,6 +111,36 @@ TEST_CASE("measure prints a table, and says what it did otherwise", "[cli]") {
                                 Catch::Contains("an error of 0.001 of these molecules costs") &&
                                 Catch::Contains("pins are held throughout") && Catch::Contains("chosen"));
     CHECK_THAT(outcome.out, !Catch::Contains("vertexFrame"));
+}
+
+TEST_CASE("measure ends with the fastest, a balanced and the most exact method, as lines for the scene",
+          "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    const Outcome outcome = runShoal(quick(scene, {"--samplings", "vertexSubstep"}), cacheIn(scratch));
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, !Catch::Contains("median ns"));
+    std::istringstream in(outcome.out);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
+    REQUIRE(lines.size() > 3);
+    double time = 0, error = 1e30;
+    for (const char* what : {"fastest", "balanced", "exact"}) {
+        const std::string& line = lines[lines.size() - (what[0] == 'f' ? 3 : what[0] == 'b' ? 2 : 1)];
+        CAPTURE(line);
+        REQUIRE(line.starts_with(what));
+        double ms = 0, found = 0;
+        REQUIRE(std::sscanf(line.c_str() + 10, "%lf ms a frame, error %lf", &ms, &found) == 2);
+        CHECK(ms >= time);
+        CHECK(found <= error);
+        time = ms;
+        error = found;
+        std::string text = readFile(scene);
+        text.insert(text.find('{') + 1, line.substr(line.find("\"solver\"")) + ",");
+        CHECK(runShoal({"check", scratch.write("with.scene.json", text)}).code == 0);
+    }
 }
 
 TEST_CASE("a reference that ran out of time is no chaos", "[cli]") {

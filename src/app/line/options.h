@@ -91,6 +91,7 @@ struct Options : RunRequest {
     std::optional<double> error;
     double errorSeconds = 60;  // run, explain: that finding it may take
     // measure (`seconds` as above)
+    bool all = false;                      // every point of measure as text, not only the best
     std::vector<SolverKind> solvers;       // empty: all
     std::vector<FieldSampling> samplings;  // empty: all that differ
     double duration = 1;                   // s of simulated time

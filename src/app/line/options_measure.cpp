@@ -117,6 +117,7 @@ void addMeasure(CLI::App& command, Options& options) {
         ->capture_default_str();
     addSeconds(command, options, "About how long to measure; leaves out what is dearest");
     section(command, reports);
+    command.add_flag("--all", options.all, "Every point as text, not only the best ones");
     addFile(command, "--csv", options.csv, "Every point as a row of this file");
     section(command, ofScene);
     addCountAndSeed(command, options);

@@ -75,7 +75,7 @@ void choose(const Scene& scene, const Options& options, const AccuracyDevice& de
 }
 
 void tell(const MeasureReport& report, const Options& options) {
-    std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
+    std::cout << (options.json ? writeJson(asJson(report)) : asText(report, options.all));
     if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
     if (!options.csv.empty() && !options.json) std::cout << "\ntable: " << printable(options.csv) << "\n";
 }
@@ -123,6 +123,9 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
     MeasureReport report;
     report.machine = bench::measuredOn(*device.context, SHOAL_VERSION);
     report.target = options.error.value_or(1e-3);
+    report.isTargetAsked = options.error.has_value();
+    for (const Group& group : scene.groups)
+        report.vertices += double(group.count) * double(group.molecule.vertices.size());
     AccuracyOptions wanted = accuracyOptions(options);
     wanted.extra = [&] {
         choose(scene, options, device, report);

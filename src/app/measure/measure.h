@@ -17,6 +17,8 @@ struct MeasureReport {
     bench::MeasuredOn machine;
     measure::AccuracyReport accuracy;
     double target = 1e-3;                        // relative error
+    bool isTargetAsked = false;                  // by --error
+    double vertices = 0;                         // of the scene
     std::optional<measure::Calibration> chosen;  // what the calibration takes for it
     std::string notChosen;                       // why there is none
 };
@@ -24,7 +26,8 @@ struct MeasureReport {
 // One point: what was chosen; null without.
 const measure::AccuracyPoint* chosenPoint(const MeasureReport& report);
 
-std::string asText(const MeasureReport& report);
+// The best methods at the end, and before them every point if `all`, or if nothing has an error.
+std::string asText(const MeasureReport& report, bool all);
 JsonValue asJson(const MeasureReport& report);
 // A row a point; the first names the columns.
 std::string asCsv(const MeasureReport& report);

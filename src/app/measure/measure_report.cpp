@@ -1,5 +1,6 @@
 #include "app/measure/measure.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "bench/case.h"
@@ -107,6 +108,49 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
             << tableText(columns, rows);
 }
 
+// Returns what a scene's file says to run as this point did.
+std::string sceneLine(const AccuracyPoint& point, double frameRate) {
+    JsonValue line = object(key("solver", object(key("method", shoal::name(point.method.solver)),
+                                                 key("substeps", point.step.substeps),
+                                                 key("fieldSampling", shoal::name(point.method.sampling)))));
+    if (point.step.split > 1) append(line, key("frameRate", frameRate * point.step.split));
+    const std::string text = writeJsonLine(line);
+    return text.substr(1, text.size() - 2);
+}
+
+// Of the points on the front, from the cheapest on.
+std::vector<const AccuracyPoint*> frontOf(const AccuracyReport& report) {
+    std::vector<const AccuracyPoint*> out;
+    for (const AccuracyPoint& point : report.points)
+        if (point.front && point.error && point.time.samples > 0) out.push_back(&point);
+    std::sort(out.begin(), out.end(),
+              [](const AccuracyPoint* a, const AccuracyPoint* b) { return a->time.min < b->time.min; });
+    return out;
+}
+
+// The fastest whose error does not show, that of which time and error have the least product, and the most
+// exact.
+void addBest(std::ostringstream& out, const MeasureReport& report,
+             const std::vector<const AccuracyPoint*>& front) {
+    constexpr double shows = 0.1;
+    const AccuracyReport& a = report.accuracy;
+    const auto tell = [&](const char* what, const AccuracyPoint& point) {
+        const double seconds = point.time.min * report.vertices / a.frameRate;
+        out << formatted("%-10s", what) << formatted("%8s", shortNumber(seconds * 1e3).c_str())
+            << " ms a frame, error " << exponent(point.error->total) << "   " << sceneLine(point, a.frameRate)
+            << "\n";
+    };
+    const auto fastest = std::find_if(
+        front.begin(), front.end(), [](const AccuracyPoint* point) { return point->error->total <= shows; });
+    const auto product = [](const AccuracyPoint* point) { return point->time.min * point->error->total; };
+    const auto balanced = std::min_element(
+        front.begin(), front.end(),
+        [&](const auto* nearer, const auto* further) { return product(nearer) < product(further); });
+    tell("fastest", fastest == front.end() ? *front.front() : **fastest);
+    tell("balanced", **balanced);
+    tell("exact", *front.back());
+}
+
 JsonValue asJson(const ErrorParts& error) {
     return object(key("total", error.total), key("centroid", error.centroid), key("shape", error.shape),
                   key("worst", error.worst), key("worstGroup", error.worstGroup),
@@ -200,18 +244,24 @@ std::string asText(const Calibration& calibration) {
                   tableText(candidateColumns, measure::asJson(calibration).find("candidates")->items));
 }
 
-std::string asText(const MeasureReport& report) {
+std::string asText(const MeasureReport& report, bool all) {
     std::ostringstream out;
     addHead(out, report);
-    std::vector<JsonValue> rows = pointRows(report), told;
-    for (size_t i = 0; i < rows.size(); ++i)
-        if (!isToldLater(report.accuracy.points, i)) told.push_back(std::move(rows[i]));
-    out << tableText(pointColumns, told, "method");
-    addSpeedUps(out, report);
-    addChosen(out, report);
+    const std::vector<const AccuracyPoint*> front = frontOf(report.accuracy);
+    if (all || front.empty()) {
+        std::vector<JsonValue> rows = pointRows(report), told;
+        for (size_t i = 0; i < rows.size(); ++i)
+            if (!isToldLater(report.accuracy.points, i)) told.push_back(std::move(rows[i]));
+        out << tableText(pointColumns, told, "method");
+        addSpeedUps(out, report);
+    }
+    if (all || front.empty() || report.isTargetAsked) addChosen(out, report);
     if (!report.accuracy.notes.empty()) out << "\n";
     for (const std::string& note : report.accuracy.notes)
         out << "note: " << printable(note) << "\n";
+    if (front.empty()) return out.str();
+    out << "\n";
+    addBest(out, report, front);
     return out.str();
 }
 
