@@ -47,6 +47,13 @@ class Table {
         }
     }
 
+    // Returns what the row of that name has for a solver; null without.
+    const Outcome* find(const std::string& name, const Solver& solver) const {
+        for (const Row& row : rows_)
+            if (row.name == name) return find(row, solver);
+        return nullptr;
+    }
+
     // Returns the row of that name, which is made at the end where there is none.
     Row& operator[](const std::string& name) {
         for (Row& row : rows_)
@@ -59,11 +66,10 @@ class Table {
         std::string out = "case\tsolver\toutcome\tfigures\n";
         for (const Row& row : rows_) {
             for (const Solver& solver : solvers()) {
-                const auto found = row.outcomes.find(solver.name);
-                if (found == row.outcomes.end()) continue;
-                const auto& [verdict, figure] = found->second;
-                out += concat(row.name, "\t", solver.name, "\t", word(verdict), "\t",
-                              verdict == Verdict::refuses ? "" : figure, "\n");
+                const Outcome* found = find(row, solver);
+                if (!found) continue;
+                out += concat(row.name, "\t", solver.name, "\t", word(found->verdict), "\t",
+                              found->verdict == Verdict::refuses ? "" : found->figure, "\n");
             }
         }
         return out;
@@ -79,8 +85,8 @@ class Table {
         for (const Row& row : rows_) {
             out += concat("| ", row.name, " |");
             for (const Solver& solver : solvers()) {
-                const auto found = row.outcomes.find(solver.name);
-                const std::string verdict = found == row.outcomes.end() ? "" : word(found->second.verdict);
+                const Outcome* found = find(row, solver);
+                const std::string verdict = found ? word(found->verdict) : "";
                 out += concat(" ", verdict == word(Verdict::fails) ? "**" + verdict + "**" : verdict, " |");
             }
             out += "\n";
@@ -89,6 +95,11 @@ class Table {
     }
 
   private:
+    static const Outcome* find(const Row& row, const Solver& solver) {
+        const auto found = row.outcomes.find(solver.name);
+        return found == row.outcomes.end() ? nullptr : &found->second;
+    }
+
     std::vector<Row> rows_;
 };
 
@@ -123,9 +134,8 @@ CATCH_REGISTER_LISTENER(TableWriter)
 }  // namespace
 
 std::optional<Verdict> expectedOf(const std::string& name, const Solver& solver) {
-    const auto& outcomes = documented()[name].outcomes;
-    const auto found = outcomes.find(solver.name);
-    return found == outcomes.end() ? std::nullopt : std::optional(found->second.verdict);
+    const Outcome* found = documented().find(name, solver);
+    return found ? std::optional(found->verdict) : std::nullopt;
 }
 
 bool updatesTable() {
