@@ -70,6 +70,7 @@ class ContactEntrant {
         step_.friction = plan.contact.pairs[0].y;
         step_.iterations = plan.contact.settings.iterations;
         step_.tolerance = float(plan.contact.settings.tolerance);
+        step_.unlikeMasses = plan.contact.unlikeMasses;
         plain_.frame();
         start_ = plain_.save().groups[0];
         if (device.ownTimes)

@@ -377,7 +377,7 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
     data.each([&](int, Piece& piece) { data.prepare(piece, step); });
     data.each([&](int, Piece& piece) { data.share(piece); });
     const auto momentum = [&step](int i) {
-        return i < step.iterations ? ContactPlan::momentum(i, step.iterations, false) : 0;
+        return i < step.iterations ? ContactPlan::momentum(i, step.iterations, step.unlikeMasses) : 0;
     };
     for (int i = 0; i < step.iterations; ++i) {
         data.each([&](int, Piece& piece) { data.relax(piece, step, momentum(i), momentum(i + 1)); });

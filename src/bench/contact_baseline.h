@@ -28,7 +28,8 @@ struct ContactBaselineStep {
     float restSpeed = 0;  // m/s: slower is rest
     float restitution = 0.2f, friction = 0.5f;
     int iterations = 4;
-    float tolerance = 0;  // at whose residual they end
+    float tolerance = 0;        // at whose residual they end
+    bool unlikeMasses = false;  // as the plan of contact has it
 };
 
 class ContactBaseline {
