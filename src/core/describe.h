@@ -32,39 +32,42 @@ class Describe {
     }
 
     // Numbers, whole numbers, seeds, flags, texts, vectors, objects and lists of objects, by their types; any
-    // of them may be optional.
+    // of them may be optional. Other kinds (core/key_kind.h) are named.
     template <typename M>
-    Describe& key(const char* name, M S::*member, Says says) {
-        return add(name, kindOf<M>(), member, std::move(says));
+    Describe& key(const char* name, M S::*member, Says says, const KeyKind& kind = kindOf<M>()) {
+        Key& key = addKey(name, kind, std::move(says));
+        key.member.offset = offsetOf(member);
+        reach<M>(key);
+        return *this;
     }
     template <typename M>
     Describe& direction(const char* name, M S::*member, Says says) {
-        return add(name, Key::Kind::direction, member, std::move(says));
+        return key(name, member, std::move(says), Key::Kind::direction);
     }
     template <typename M>
     Describe& color(const char* name, M S::*member, Says says) {
         says.range.least = 0;
-        return add(name, Key::Kind::color, member, std::move(says));
+        return key(name, member, std::move(says), Key::Kind::color);
     }
     Describe& span(const char* name, glm::dvec2 S::*member, Says says) {
-        return add(name, Key::Kind::span, member, std::move(says));
+        return key(name, member, std::move(says), Key::Kind::span);
     }
     Describe& ends(const char* name, glm::dvec2 S::*member, Says says) {
-        return add(name, Key::Kind::ends, member, std::move(says));
+        return key(name, member, std::move(says), Key::Kind::ends);
     }
     template <typename M>
     Describe& box(const char* name, M S::*member, Says says, bool flat = false) {
-        add(name, Key::Kind::box, member, std::move(says));
+        key(name, member, std::move(says), Key::Kind::box);
         last().flatBox = flat;
         return *this;
     }
     Describe& rotation(const char* name, glm::dquat S::*member, Says says) {
-        return add(name, Key::Kind::rotation, member, std::move(says));
+        return key(name, member, std::move(says), Key::Kind::rotation);
     }
     // One of some words; the member is an enumeration, whose values are their indices.
     template <typename Enum>
     Describe& word(const char* name, Enum S::*member, const std::vector<std::string>& words, Says says) {
-        add(name, Key::Kind::word, member, std::move(says));
+        key(name, member, std::move(says), Key::Kind::word);
         last().words = words;
         last().member.index = [](const void* object) { return int(*static_cast<const Enum*>(object)); };
         last().member.choose = [](void* object, int index) {
@@ -77,7 +80,7 @@ class Describe {
     template <typename Enum>
     Describe& word(const char* name, std::optional<Enum> S::*member, const std::vector<std::string>& words,
                    Says says) {
-        add(name, Key::Kind::word, member, std::move(says));
+        key(name, member, std::move(says), Key::Kind::word);
         last().words = words;
         last().member = {.offset = last().member.offset};
         last().member.index = [](const void* object) {
@@ -123,7 +126,7 @@ class Describe {
     // A word that chooses what the variant holds: the names of the alternatives' descriptions.
     template <typename M>
     Describe& alternatives(const char* name, M S::*member, Says says) {
-        add(name, Key::Kind::variant, member, std::move(says));
+        key(name, member, std::move(says), Key::Kind::variant);
         addAlternatives<M>(variantIn(static_cast<const M*>(nullptr)));
         return needed();
     }
@@ -241,19 +244,12 @@ class Describe {
         const S& sample = usual();
         return reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
     }
-    Key& addKey(const char* name, Key::Kind kind, Says says) {
+    Key& addKey(const char* name, const KeyKind& kind, Says says) {
         Key& key = description_.keys_.emplace_back();
         key.name = name;
-        key.kind = kind;
+        key.kind = &kind;
         key.says = std::move(says);
         return key;
-    }
-    template <typename M>
-    Describe& add(const char* name, Key::Kind kind, M S::*member, Says says) {
-        Key& key = addKey(name, kind, std::move(says));
-        key.member.offset = offsetOf(member);
-        reach<M>(key);
-        return *this;
     }
 
     template <typename M>
@@ -273,7 +269,7 @@ class Describe {
     };
 
     template <typename M>
-    static constexpr Key::Kind kindOf() {
+    static const KeyKind& kindOf() {
         using T = typename Within<M>::type;
         if (std::is_same_v<M, std::vector<std::string>>) return Key::Kind::texts;
         if (Within<M>::list) return Key::Kind::list;

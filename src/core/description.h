@@ -14,11 +14,9 @@
 #include <vector>
 
 #include "core/contract.h"
-#include "core/where.h"
+#include "core/key_kind.h"
 
 namespace shoal {
-
-class Description;
 
 // A member of whatever type, by what is needed of it.
 struct Member {
@@ -58,7 +56,8 @@ constexpr double largestNumber = 1e15;
 // A key that means something only beside what another key says, which stands before it.
 struct Condition {
     std::string key;
-    std::vector<std::string> words;  // what it may say, "true" of a flag; none: it must be there
+    std::vector<std::string> words;            // what it may say, "true" of a flag; none: it must be there
+    bool isMet(const JsonValue& value) const;  // null: the other key is left out
 };
 
 // The value of a key that a function beside the description reads: one value, or lists of them.
@@ -76,31 +75,9 @@ struct Form {
 };
 
 struct Key {
-    enum class Kind {
-        number,
-        whole,
-        whole3,  // three of them
-        seed,
-        longSeed,  // of 64 bits
-        flag,
-        word,   // one of `words`
-        text,   // any string
-        texts,  // a list of strings
-        vector2,
-        vector3,
-        direction,  // of any length above 0; made a unit vector
-        color,      // linear RGB, at least 0
-        span,       // [least, most], or one number for both
-        ends,       // [first, last], or one number for the last
-        box,        // {"low", "high"}
-        rotation,   // [x, y, z, w], or {"axis", "angle"}
-        object,
-        list,     // of objects
-        variant,  // a word that chooses an alternative, whose keys stand beside it
-        byHand,   // read by a function beside the description
-    };
+    using Kind = KeyKind;
     std::string name;
-    Kind kind = Kind::number;
+    const KeyKind* kind = &Kind::number;
     Says says;
     bool needed = false;
     bool unlessZero = false;  // 0 stands for no key
@@ -127,10 +104,8 @@ class Description {
     const std::string& name() const { return name_; }
     const std::string& sentence() const { return sentence_; }
     const std::vector<Key>& keys() const { return keys_; }
-    JsonValue usualValue(const Key& key) const;  // of a key that is left out; null: there is none
-    const std::string& schema() const {
-        return schema_;
-    }  // of rules between keys, as JSON Schema; may be empty
+    JsonValue usualValue(const Key& key) const;            // of a key that is left out; null: there is none
+    const std::string& schema() const { return schema_; }  // of rules between keys; may be empty
     bool isOf(const std::type_info& type) const { return *type_ == type; }
     const Key* find(const std::string& name) const;  // null: there is none
     // The first condition of a key that an object does not meet; null: the key means something.
@@ -179,6 +154,11 @@ class Description {
         return writeSomeAny(names, &object, context);
     }
 
+    // Likewise of a struct whose type only the description knows, for kinds of keys.
+    void readAny(JsonReader& reader, void* out, void* context) const;
+    void checkAny(const void* object, const Where& where, double largest) const;
+    void writeAny(const void* object, JsonValue& out, const void* context) const;
+
   private:
     template <typename S>
     friend class Describe;
@@ -188,13 +168,6 @@ class Description {
     JsonValue writeSomeAny(std::initializer_list<const char*> names, const void* object,
                            const void* context) const;
     void readFileAny(const JsonValue& root, const std::string& file, void* out, void* context) const;
-    void readAny(JsonReader& reader, void* out, void* context) const;
-    void checkAny(const void* object, const Where& where, double largest) const;
-    void writeAny(const void* object, JsonValue& out, const void* context) const;
-
-    static void readKey(const Key& key, JsonReader& reader, void* out, void* context);
-    static void checkKey(const Key& key, const void* object, const Where& where, double largest);
-    static JsonValue writeKey(const Key& key, const void* object, const void* usual, const void* context);
 
     std::string name_, sentence_, schema_, format_;
     std::vector<Key> keys_;

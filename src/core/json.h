@@ -80,8 +80,10 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
     bool aboveLeast = false;  // strictly above `least`
 
-    static Range atLeast(double value) { return {value, std::numeric_limits<double>::infinity(), false}; }
-    static Range between(double least, double most) { return {least, most, false}; }
+    static constexpr Range atLeast(double value) {
+        return {value, std::numeric_limits<double>::infinity(), false};
+    }
+    static constexpr Range between(double least, double most) { return {least, most, false}; }
 };
 
 // Reads one object. Call a getter per key, then `finish()`, which refuses whatever was not asked for.

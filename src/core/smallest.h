@@ -2,18 +2,11 @@
 // it needs, each with a value that it may have. Rules between keys may ask for more.
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "core/description.h"
 #include "core/json.h"
 
 namespace shoal {
 
-// A text for a key that names something, such as a file.
-using TextOf = std::function<std::string(const Key&)>;
-
-JsonValue smallestValue(const Key& key, const TextOf& text);
 JsonValue smallestObject(const Description& keys, const TextOf& text);
 // The description has a variant, which becomes this kind.
 JsonValue smallestObject(const Description& keys, const Description& kind, const TextOf& text);

@@ -43,8 +43,7 @@ JsonValue asJson(const std::vector<double>& numbers, bool list) {
 }
 
 bool isWhole(const Key& key) {
-    return key.kind == Kind::whole || key.kind == Kind::whole3 || key.kind == Kind::seed ||
-           key.kind == Kind::longSeed || key.form.value == Form::Value::whole;
+    return key.kind->row(key, {}) == RowForm::wholes;
 }
 
 bool drawWord(const Row& row, JsonValue& value, const std::vector<std::string>& words) {
@@ -168,7 +167,7 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
         bool says = found != nullptr;
         if (tick({label.c_str(), key.says.sentence.c_str()}, says)) {
             if (says)
-                setMember(object, key.name, smallestValue(key, text()));
+                setMember(object, key.name, key.kind->least(key, text()));
             else
                 leaveOut(object, key.name);
             return true;
@@ -201,16 +200,16 @@ bool JsonRows::drawNode(const Key& key, JsonValue& value, bool startsOpen) {
 
 bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& label) {
     const Row row{label.c_str(), key.says.sentence.c_str()};
-    switch (key.kind) {
-    case Kind::flag:
+    switch (key.kind->row(key, value)) {
+    case RowForm::tick:
         return tick(row, value.boolean);
-    case Kind::word:
+    case RowForm::word:
         return drawWord(row, value, key.words);
-    case Kind::text:
+    case RowForm::text:
         return drawText(key, value, label);
-    case Kind::texts:
+    case RowForm::texts:
         return drawTexts(row, value);
-    case Kind::color: {
+    case RowForm::color: {
         const std::vector<double> current = numbersOf(value);
         if (current.size() != 3) return false;
         glm::dvec3 color(current[0], current[1], current[2]);
@@ -221,7 +220,7 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
         value = toJson(color);
         return true;
     }
-    case Kind::box: {
+    case RowForm::box: {
         bool changed = false;
         for (const char* end : {"low", "high"}) {
             JsonValue* corner = findIn(value, end);
@@ -229,16 +228,10 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
         }
         return changed;
     }
-    case Kind::rotation:
+    case RowForm::rotation:
         return drawRotation(key, value, label);
-    case Kind::object:
+    case RowForm::node:
         return drawNode(key, value, true);
-    case Kind::byHand:
-        if (key.form.value == Form::Value::text && key.form.lists.size() == 1) return drawTexts(row, value);
-        if (key.form.value == Form::Value::text && value.kind == Json::string)
-            return drawText(key, value, label);
-        if (value.kind == Json::object && key.objects.size() == 1) return drawNode(key, value, true);
-        [[fallthrough]];
     default:
         return drawNumbers(key, value, label);
     }

@@ -45,9 +45,10 @@ bool dragBox(const Key& key, const Limit& limit, Box& box) {
 }
 
 bool hasRow(const Key& key) {
-    constexpr Kind kinds[] = {Kind::number,  Kind::whole,     Kind::flag,  Kind::word, Kind::vector2,
-                              Kind::vector3, Kind::direction, Kind::color, Kind::span, Kind::ends,
-                              Kind::box,     Kind::object,    Kind::list};
+    const KeyKind* const kinds[] = {&Kind::number,  &Kind::whole,   &Kind::flag,      &Kind::word,
+                                    &Kind::vector2, &Kind::vector3, &Kind::direction, &Kind::color,
+                                    &Kind::span,    &Kind::ends,    &Kind::box,       &Kind::object,
+                                    &Kind::list};
     return std::find(std::begin(kinds), std::end(kinds), key.kind) != std::end(kinds);
 }
 
@@ -140,38 +141,28 @@ bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, c
     std::string format;
     const Row row = formattedRow(label, key, format, slider);
     const Limit limit{slider.least, slider.most};
-    switch (key.kind) {
-    case Kind::number: {
+    if (key.kind == Kind::number) {
         double& number = *static_cast<double*>(value);
         if (!slide(row, limit, number)) return false;
         if (key.unlessZero && number < key.says.range.least) number = 0;
         return true;
     }
-    case Kind::whole:
-        return slide(row, limit, *static_cast<int*>(value));
-    case Kind::span:
-    case Kind::ends:
+    if (key.kind == Kind::whole) return slide(row, limit, *static_cast<int*>(value));
+    if (key.kind == Kind::span || key.kind == Kind::ends)
         return slideSpan(row, limit, *static_cast<glm::dvec2*>(value));
-    case Kind::vector2:
-        return drag(row, limit, &static_cast<glm::dvec2*>(value)->x, 2, 0.01);
-    case Kind::vector3:
+    if (key.kind == Kind::vector2) return drag(row, limit, &static_cast<glm::dvec2*>(value)->x, 2, 0.01);
+    if (key.kind == Kind::vector3)
         return drag({row.label, row.tip, "%.5g"}, limit, &static_cast<glm::dvec3*>(value)->x, 3, 0.01);
-    case Kind::direction:
+    if (key.kind == Kind::direction)
         return turnDirection(row.tip, *static_cast<glm::dvec3*>(value), angles_[ImGui::GetID("angles")]);
-    case Kind::color:
+    if (key.kind == Kind::color)
         return pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, *static_cast<glm::dvec3*>(value));
-    case Kind::flag:
-        return tick(row, *static_cast<bool*>(value));
-    case Kind::word: {
-        const auto chosen = choose(row, key.words[size_t(key.member.index(value))], key.words);
-        if (chosen) key.member.choose(value, int(*chosen));
-        return chosen.has_value();
-    }
-    case Kind::box:
-        return dragBox(key, limit, *static_cast<Box*>(value));
-    default:
-        return false;
-    }
+    if (key.kind == Kind::flag) return tick(row, *static_cast<bool*>(value));
+    if (key.kind == Kind::box) return dragBox(key, limit, *static_cast<Box*>(value));
+    if (key.kind != Kind::word) return false;
+    const auto chosen = choose(row, key.words[size_t(key.member.index(value))], key.words);
+    if (chosen) key.member.choose(value, int(*chosen));
+    return chosen.has_value();
 }
 
 // Returns a text that an element needs and that nothing here can enter, such as the name of a group; null:

@@ -47,38 +47,18 @@ class Sliders {
     void move(const Key& key, void* value, const Slider& slider) {
         const auto place = [&] { return glm::dvec3(in(slider), in(slider), in(slider)); };
         const double a = in(slider), b = in(slider);
-        switch (key.kind) {
-        case Key::Kind::number:
-            *static_cast<double*>(value) = a;
-            return;
-        case Key::Kind::whole:
-            *static_cast<int*>(value) = int(a);
-            return;
-        case Key::Kind::flag:
-            *static_cast<bool*>(value) = random_.uniform() < 0.5;
-            return;
-        case Key::Kind::span:
-            *static_cast<glm::dvec2*>(value) = {std::min(a, b), std::max(a, b)};
-            return;
-        case Key::Kind::ends:
-            *static_cast<glm::dvec2*>(value) = {a, b};
-            return;
-        case Key::Kind::vector3:
-            *static_cast<glm::dvec3*>(value) = place();
-            return;
-        case Key::Kind::direction:
-            *static_cast<glm::dvec3*>(value) = random_.direction();
-            return;
-        case Key::Kind::box: {
-            const glm::dvec3 one = place(), other = place();
-            *static_cast<Box*>(value) = {glm::min(one, other), glm::max(one, other)};
-            return;
-        }
-        case Key::Kind::object:
-            return moveAll(*key.objects[0], value, {});
-        default:
-            return;
-        }
+        using Kind = Key::Kind;
+        if (key.kind == Kind::number) *static_cast<double*>(value) = a;
+        if (key.kind == Kind::whole) *static_cast<int*>(value) = int(a);
+        if (key.kind == Kind::flag) *static_cast<bool*>(value) = random_.uniform() < 0.5;
+        if (key.kind == Kind::span) *static_cast<glm::dvec2*>(value) = {std::min(a, b), std::max(a, b)};
+        if (key.kind == Kind::ends) *static_cast<glm::dvec2*>(value) = {a, b};
+        if (key.kind == Kind::vector3) *static_cast<glm::dvec3*>(value) = place();
+        if (key.kind == Kind::direction) *static_cast<glm::dvec3*>(value) = random_.direction();
+        if (key.kind == Kind::object) moveAll(*key.objects[0], value, {});
+        if (key.kind != Kind::box) return;
+        const glm::dvec3 corner = place(), other = place();
+        *static_cast<Box*>(value) = {glm::min(corner, other), glm::max(corner, other)};
     }
 
     Random random_;

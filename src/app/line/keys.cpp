@@ -20,15 +20,13 @@ struct Place {
 void addPlaces(std::vector<Place>& out, const Place& place) {
     out.push_back(place);
     for (const Key& key : place.object->keys()) {
-        const std::string inner = concat(place.path, ".", key.name);
-        if (key.kind == Key::Kind::object || key.kind == Key::Kind::byHand)
-            for (const Description* description : key.objects)
-                addPlaces(out, {inner, key.name, description});
-        if (key.kind == Key::Kind::list) addPlaces(out, {inner + "[]", key.name, key.objects[0]});
-        if (key.kind != Key::Kind::variant) continue;
-        for (const Description* description : key.objects)
-            addPlaces(out, {concat(place.path, ", ", key.name, " \"", description->name(), "\""),
-                            description->name(), description});
+        const bool variant = key.kind == Key::Kind::variant;
+        const std::string inner = concat(place.path, variant ? ", " : ".", key.name);
+        for (const Description* held : key.objects)
+            if (variant)
+                addPlaces(out, {concat(inner, " \"", held->name(), "\""), held->name(), held});
+            else
+                addPlaces(out, {concat(inner, key.kind == Key::Kind::list ? "[]" : ""), key.name, held});
     }
 }
 
