@@ -36,16 +36,14 @@ std::string warningsOfPile(int layers, int substeps, double drag = 0) {
 // Of 160 layers the lowest end in one another with 4 contact steps, and with 12 hardly
 // (docs/contact-figures.md).
 TEST_CASE("a tall pile that falls too fast for its contact steps is warned of", "[warnings]") {
-    using Catch::Matchers::Contains;
-    CHECK_THAT(warningsOfPile(160, 4), Contains("reaches 9.9 m/s"));
-    CHECK_THAT(warningsOfPile(160, 4), Contains("\"substeps\" of at least 12 instead of 4 hold it"));
-    CHECK_THAT(warningsOfPile(160, 12), !Contains("spheres high"));
-    CHECK_THAT(warningsOfPile(40, 4), !Contains("spheres high"));
-    CHECK_THAT(warningsOfPile(160, 4, 9), !Contains("spheres high"));  // it falls at 1.1 m/s
+    CHECK_THAT(warningsOfPile(160, 4), Catch::Contains("reaches 9.9 m/s"));
+    CHECK_THAT(warningsOfPile(160, 4), Catch::Contains("\"substeps\" of at least 12 instead of 4 hold it"));
+    CHECK_THAT(warningsOfPile(160, 12), !Catch::Contains("spheres high"));
+    CHECK_THAT(warningsOfPile(40, 4), !Catch::Contains("spheres high"));
+    CHECK_THAT(warningsOfPile(160, 4, 9), !Catch::Contains("spheres high"));  // it falls at 1.1 m/s
 }
 
 TEST_CASE("molecules that spheres cannot close are refused", "[warnings]") {
-    using Catch::Matchers::Contains;
     const auto scene = [](const char* molecule, const char* contact) {
         return parseScene(
             concat(R"({"format": "shoal-scene-1", "groups": [{"name": "a", "molecule": ")", SHOAL_SOURCE_DIR,
@@ -54,9 +52,9 @@ TEST_CASE("molecules that spheres cannot close are refused", "[warnings]") {
             "s.json");
     };
     CHECK_THROWS_WITH(scene("point.json", R"("closed": true)"),
-                      Contains("the molecule has no triangles (at $.groups[0].contact.closed)"));
+                      Catch::Contains("the molecule has no triangles (at $.groups[0].contact.closed)"));
     CHECK_THROWS_WITH(scene("leaf.json", R"("closed": true, "radius": 0.0009)"),
-                      Contains("expected a radius of at least 0.000956"));
+                      Catch::Contains("expected a radius of at least 0.000956"));
     CHECK_NOTHROW(scene("leaf.json", R"("closed": true, "radius": 0.001)"));
     CHECK_NOTHROW(scene("leaf.json", R"("closed": true)"));
 }
