@@ -65,11 +65,13 @@ const Condition* Description::unmet(const Key& key, const void* object) const {
 }
 
 Slider sliderOf(const Key& key, const void* object) {
+    const void* value = key.value(object);
+    return sliderOf(key, value && key.kind->numbers ? key.kind->numbers(value) : std::vector<double>());
+}
+
+Slider sliderOf(const Key& key, const std::vector<double>& numbers) {
     const Range& range = key.says.range;
     Slider out = key.says.slider;
-    const void* value = key.value(object);
-    std::vector<double> numbers;
-    if (value && key.kind->numbers) numbers = key.kind->numbers(value);
     double largest = 0;
     for (const double number : numbers)
         if (std::abs(number) < largestNumber) largest = std::max(largest, std::abs(number));

@@ -181,5 +181,6 @@ class Description {
 // Returns the range of the slider for a number that an object has now. It always includes the object's own
 // numbers, but no value that the key does not allow.
 Slider sliderOf(const Key& key, const void* object);
+Slider sliderOf(const Key& key, const std::vector<double>& numbers);  // of its value
 
 }  // namespace shoal

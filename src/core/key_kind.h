@@ -20,7 +20,22 @@ using TextOf = std::function<std::string(const Key&)>;
 using SchemaOf = std::function<JsonValue(const Description&)>;
 
 // How a window edits a value. A node opens to the keys of an object.
-enum class RowForm { numbers, wholes, tick, word, text, texts, color, box, rotation, node, list, variant };
+enum class RowForm {
+    numbers,
+    wholes,
+    span,  // two numbers, of which a file may say one
+    tick,
+    word,
+    text,
+    texts,
+    color,
+    direction,
+    box,
+    rotation,
+    node,
+    list,
+    variant,
+};
 
 struct KeyKind {
     // What tables say of the type of a key: the name, that with the limits and the unit, or what the unit

@@ -85,11 +85,13 @@ bool DrawnGroups::changeParticle(size_t group, const ParticleType& type, const L
     return true;
 }
 
-void DrawnGroups::changeLooks(size_t group, const Group& looks) {
+bool DrawnGroups::changeLooks(size_t group, const Group& looks) {
     for (Drawn& drawn : groups_) {
         if (drawn.drawer->index() != group) continue;
-        if (auto* molecules = dynamic_cast<MoleculeDrawer*>(drawn.drawer.get())) molecules->change(looks);
+        auto* molecules = dynamic_cast<MoleculeDrawer*>(drawn.drawer.get());
+        return molecules && molecules->change(looks);
     }
+    return true;
 }
 
 const DrawOrder* DrawnGroups::orderOf(size_t group) const {

@@ -39,7 +39,7 @@ class DrawnGroups {
     bool changeParticle(size_t group, const ParticleType& type, const Lighting& lighting);
 
     // Calls MoleculeDrawer::change for a group of the plan.
-    void changeLooks(size_t group, const Group& looks);
+    bool changeLooks(size_t group, const Group& looks);
 
     const DrawOrder* orderOf(size_t group) const;  // of the plan; null: it has none. For tests
 

@@ -103,7 +103,7 @@ class MoleculeDrawer : public GroupDrawer {
     const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
 
     // Other colours, roughness, translucency and opacity; the rest of the group is as before.
-    void change(const Group& group);
+    bool change(const Group& group);
 
   private:
     template <typename Vertices>

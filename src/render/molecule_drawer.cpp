@@ -31,6 +31,7 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, gpu::Programs& programs, c
     : GroupDrawer(context, programs, plan, index),
       material_(group.molecule.material),
       points_(group.molecule.triangles.empty() && group.molecule.skin.empty()) {
+    if (group.life && !points_) grow_ = group.life->grow, shrink_ = group.life->shrink;
     change(group);
     if (points_)
         streams_ = {{plan.vertexCount, false}};
@@ -38,20 +39,22 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, gpu::Programs& programs, c
         makeSkinCorners(group.molecule);
     else
         makeCorners(group.molecule.vertices, cornersOf(group.molecule.triangles));
-    if (group.life && !points_) {
-        grow_ = group.life->grow;
-        shrink_ = group.life->shrink;
-    }
     if (!points_ && !material_.texture.empty()) image_ = loadImage(context, group.molecule);
     chooseShaders(lighting);
 }
 
-void MoleculeDrawer::change(const Group& group) {
+bool MoleculeDrawer::change(const Group& group) {
+    if (group.life && !points_) {
+        if (grows() != (group.life->grow > 0 || group.life->shrink > 0)) return false;  // another program
+        grow_ = group.life->grow;
+        shrink_ = group.life->shrink;
+    }
     const Material& looks = group.molecule.material;
     material_.roughness = looks.roughness;
     material_.translucency = looks.translucency;
     material_.opacity = looks.opacity;
     colors_ = instanceColors(group);
+    return true;
 }
 
 template <typename Vertices>

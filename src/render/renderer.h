@@ -91,9 +91,8 @@ class Renderer {
         return groups_.changeParticle(group, type, lighting_);
     }
 
-    // Another colour, roughness, translucency or opacity for a group of molecules of the plan, from the next
-    // picture on.
-    void changeLooks(size_t group, const Group& looks) { groups_.changeLooks(group, looks); }
+    // Another colour, roughness, translucency, opacity or growth for a group of molecules, likewise.
+    bool changeLooks(size_t group, const Group& looks) { return groups_.changeLooks(group, looks); }
 
     gpu::PassTimers& timers() { return timers_; }
     // How many points and triangles of molecules the last picture has; waits for it.

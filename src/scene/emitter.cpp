@@ -48,29 +48,8 @@ void checkEmitter(const Emitter& emitter, const Where& where) {
         throw Error(where.locate("along"), "nothing is outward of a line or a box: expected a \"direction\"");
 }
 
-// Leaves "along" out where the reader would take the same without it.
-JsonValue writeAlong(const Emitter& emitter, const void*) {
-    const bool outward = emitter.along == Emitter::Along::outward,
-               up = emitter.direction == glm::dvec3(0, 1, 0);
-    if (outward == (outwardByNature(emitter) && up)) return {};
-    return JsonValue::makeString(outward ? "outward" : "direction");
-}
-
-// The reader asks for a rate or for bursts.
-JsonValue writeRate(const Emitter& emitter, const void*) {
-    return emitter.rate != 0 || emitter.bursts.empty() ? JsonValue::makeNumber(emitter.rate) : JsonValue();
-}
-
-JsonValue writeInherit(const Emitter& emitter, const void*) {
-    return isCarried(emitter) && emitter.inherit != 0 ? JsonValue::makeNumber(emitter.inherit) : JsonValue();
-}
-
 void readModel(JsonReader& r, Emitter& emitter, const SceneReading* reading) {
     emitter.model = needModel(r, "model", reading->models);
-}
-
-JsonValue writeModel(const Emitter& emitter, const void* scene) {
-    return JsonValue::makeString(static_cast<const Scene*>(scene)->models[size_t(emitter.model)].name);
 }
 
 }  // namespace
@@ -153,7 +132,7 @@ const Description& describe(const Emitter*) {
             .only("from", {"box"})
             .byHand<const SceneReading>(
                 "model", {}, {"the name of a model", "The model, of which every triangle emits by its area."},
-                readModel, writeModel)
+                readModel)
             .needed()
             .only("from", {"surface"})
             .key("select", &E::select, {"", "Which part of the model; all of it without."})
@@ -170,7 +149,6 @@ const Description& describe(const Emitter*) {
                   Range::atLeast(0),
                   {0, 1000, true}})
             .only("from", bySchedule)
-            .writes(writeRate)
             .key("random", &E::random,
                  {"", "Whether they are born at random moments of that rate (Poisson)."})
             .only("from", bySchedule)
@@ -186,7 +164,6 @@ const Description& describe(const Emitter*) {
                    "What the cone of their velocities is about: `outward` is from the middle of a disc or "
                    "sphere, along a surface's normal, and any way from a point or a death."})
             .usually("`\"outward\"` of spheres, surfaces and deaths without a `direction`")
-            .writes(writeAlong)
             .direction("direction", &E::direction,
                        {"", "The direction of the cone, and what a disc lies across."})
             .key("spread", &E::spread,
@@ -196,7 +173,6 @@ const Description& describe(const Emitter*) {
                   {"m/s", "The speed at birth, random between the two.", Range::atLeast(0), {0, 20}})
             .key("inherit", &E::inherit,
                  {"", "The share of the velocity of the emitter's `path`, or of what died.", {}, {-1, 2}})
-            .writes(writeInherit)
             .key("path", &E::path, {"", "How the emitter moves, as a collider does."})
             .only("from", {"point", "line", "disc", "sphere", "box"})
             .derive(follow)

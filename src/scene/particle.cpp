@@ -63,23 +63,9 @@ void readFileOf(JsonReader& r, ParticleImage& image, void*) {
     image.file = needFile(r, "file");
 }
 
-JsonValue writeFileOf(const ParticleImage& image, const void* scene) {
-    const std::string file = static_cast<const Scene*>(scene)->file;
-    const fs::path folder = fs::path(file).parent_path();
-    if (folder.empty()) return JsonValue::makeString(image.file);
-    const fs::path relative =
-        fs::absolute(image.file).lexically_relative(fs::absolute(folder).lexically_normal());
-    return JsonValue::makeString(relative.empty() ? image.file : relative.generic_string());
-}
-
 void readTile(JsonReader& r, ParticleImage& image, void*) {
     image.lastTile = image.columns * image.rows - 1;
     if (r.get("tile", image.firstTile)) image.lastTile = image.firstTile;
-}
-
-JsonValue writeTile(const ParticleImage& image, const void*) {
-    const bool single = image.firstTile == image.lastTile && image.columns * image.rows > 1;
-    return single ? JsonValue::makeNumber(image.firstTile) : JsonValue();
 }
 
 void readTiles(JsonReader& r, ParticleImage& image, void*) {
@@ -90,12 +76,6 @@ void readTiles(JsonReader& r, ParticleImage& image, void*) {
         throw Error(r.locate("tiles"), "expected [first, last], found ", ends.size(), " numbers");
     image.firstTile = ends[0];
     image.lastTile = ends[1];
-}
-
-JsonValue writeTiles(const ParticleImage& image, const void*) {
-    const bool all = image.firstTile == 0 && image.lastTile == image.columns * image.rows - 1;
-    if (all || image.firstTile == image.lastTile) return {};
-    return JsonValue::makeVector(glm::ivec2(image.firstTile, image.lastTile));
 }
 
 }  // namespace
@@ -127,8 +107,7 @@ const Description& describe(const ParticleImage*) {
     using P = ParticleImage;
     static const Description description =
         Describe<P>("image", "An image, cut into tiles of the same size.")
-            .byHand("file", {.notEmpty = true}, {"the name of a PNG with alpha", "The image."}, readFileOf,
-                    writeFileOf)
+            .byHand("file", {.notEmpty = true}, {"the name of a PNG with alpha", "The image."}, readFileOf)
             .needed()
             .key("columns", &P::columns,
                  {"", "The number of tiles from left to right.", Range::between(1, mostTiles)})
@@ -138,9 +117,9 @@ const Description& describe(const ParticleImage*) {
                   "left.",
                   Range::between(1, mostTiles)})
             .byHand("tile", {.value = Form::Value::whole, .range = Range::atLeast(0)},
-                    {"whole number", "The only tile in use."}, readTile, writeTile)
+                    {"whole number", "The only tile in use."}, readTile)
             .byHand("tiles", {.value = Form::Value::whole, .lists = {{2, 2}}, .range = Range::atLeast(0)},
-                    {"[first, last]", "The tiles in use; all without it."}, readTiles, writeTiles)
+                    {"[first, last]", "The tiles in use; all without it."}, readTiles)
             .key("flipBook", &P::flipBook,
                  {"",
                   "Whether each particle shows all tiles one after another; else it shows one, by its seed."})

@@ -37,6 +37,7 @@ GroupState moved(const GroupState& saved, const GroupPlan& from, const GroupPlan
     overwrite(out.velocities, saved.velocities);
     overwrite(out.anchors, saved.anchors);
     overwrite(out.released, saved.released);
+    overwrite(out.steering, saved.steering);
     if (from.solver != to.solver || from.count != to.count) return out;
     out.displacements = saved.displacements;
     out.velocityChanges = saved.velocityChanges;
@@ -51,7 +52,6 @@ GroupState carried(const GroupState& saved, double time, const GroupPlan& from, 
     overwrite(out.lives, saved.lives);
     overwrite(out.seeds, saved.seeds);
     overwrite(out.looks, saved.looks);
-    overwrite(out.steering, saved.steering);
     out.clocks = saved.clocks;
     out.clocks.resize(to.life->cycle.emitters.size());
     out.totals = saved.totals;

@@ -10,7 +10,7 @@ namespace shoal::window {
 
 void Captures::takePicture(RunningScene& running) {
     troubles_.attempt("capture", [&] {
-        const std::string file = freeName(sceneStem(running.scene.file), ".png");
+        const std::string file = freeName(sceneStem(running.scene().file), ".png");
         writePng(file, running.renderer().capture());
         say("picture: " + file);
     });
@@ -19,7 +19,7 @@ void Captures::takePicture(RunningScene& running) {
 void Captures::toggleVideo(RunningScene& running) {
     troubles_.attempt("recording", [&] {
         if (!recorder_.records())
-            return recorder_.start(sceneStem(running.scene.file), running.scene.frameRate);
+            return recorder_.start(sceneStem(running.scene().file), running.scene().frameRate);
         recorder_.stop();
         say(concat("recorded: ", recorder_.target(), ", ", many(recorder_.frames(), "frame", "frames")));
     });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "core/description.h"
@@ -55,8 +56,12 @@ void beginRow(const Row& row) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label);
     if (ImGui::IsItemHovered() && *row.tip) ImGui::SetTooltip("%s", row.tip);
-    ImGui::SameLine(points(labelWidth));
+    besideLabel();
     ImGui::SetNextItemWidth(-1);
+}
+
+void besideLabel() {
+    ImGui::SameLine(points(labelWidth));
 }
 
 bool slide(const Row& row, const Limit& limit, double& value) {
@@ -197,6 +202,15 @@ void tip(const char* words) {
 
 std::string plain(double number) {
     return formatted("%.4g", number);
+}
+
+std::string inWords(const std::string& key) {
+    std::string out;
+    for (const char c : key) {
+        if (std::isupper(static_cast<unsigned char>(c))) out += ' ';
+        out += char(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return out;
 }
 
 }  // namespace shoal::window

@@ -52,11 +52,13 @@ bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles);
 // ---- Beside rows
 
 void heading(const char* words);
-bool toggle(const char* label, bool on);  // a button that looks pressed
-void tip(const char* words);              // of what was drawn last
-std::string plain(double number);         // four digits
+bool toggle(const char* label, bool on);      // a button that looks pressed
+void tip(const char* words);                  // of what was drawn last
+std::string plain(double number);             // four digits
+std::string inWords(const std::string& key);  // "separationRadius" as "separation radius"
 
 // Draws the label of a row; the widget that is drawn next takes the rest of it.
 void beginRow(const Row& row);
+void besideLabel();  // what is drawn next stands where the widgets of rows do
 
 }  // namespace shoal::window

@@ -41,7 +41,7 @@ bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
             if (built) {
                 tell(reloaded);
             } else {
-                std::cerr << "shoal: warning: not reloaded yet: " << printable(running.original().file)
+                std::cerr << "shoal: warning: not reloaded yet: " << printable(running.document().file())
                           << " and the window both changed";
                 for (const std::string& conflict : conflicts_)
                     std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << printable(conflict);

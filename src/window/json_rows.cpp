@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 #include <utility>
 
 #include "core/json_build.h"
-#include "core/smallest.h"
+#include "window/color_keys.h"
 #include "window/edit_widgets.h"
-#include "window/key_rows.h"
+#include "window/new_elements.h"
+#include "window/scene_document.h"
 
 namespace shoal::window {
 
@@ -20,14 +20,6 @@ namespace {
 
 using Kind = Key::Kind;
 using Json = JsonValue::Kind;
-
-JsonValue* findIn(JsonValue& object, const std::string& key) {
-    return const_cast<JsonValue*>(object.find(key));
-}
-
-void leaveOut(JsonValue& object, const std::string& key) {
-    std::erase_if(object.members, [&](const JsonMember& member) { return member.first == key; });
-}
 
 // A number, or numbers in a list.
 std::vector<double> numbersOf(const JsonValue& value) {
@@ -72,34 +64,7 @@ const Description* alternativeOf(const Key& key, const JsonValue& object) {
     return nullptr;
 }
 
-std::string freeName(const JsonValue& list, const std::string& wanted) {
-    const auto taken = [&](const std::string& name) {
-        return std::any_of(list.items.begin(), list.items.end(), [&](const JsonValue& item) {
-            const JsonValue* own = item.find("name");
-            return own && own->text == name;
-        });
-    };
-    std::string out = wanted;
-    for (int i = 2; taken(out); ++i)
-        out = concat(wanted, " ", i);
-    return out;
-}
-
 }  // namespace
-
-void setMember(JsonValue& object, const std::string& key, JsonValue value) {
-    if (JsonValue* found = findIn(object, key))
-        *found = std::move(value);
-    else
-        object.add(key, std::move(value));
-}
-
-JsonValue smallestGroup(const JsonValue& groups, const std::string& molecule) {
-    const JsonValue box = object(key("low", glm::dvec3(-1, 0.5, -1)), key("high", glm::dvec3(1, 2.5, 1)));
-    return object(key("name", freeName(groups, std::filesystem::path(molecule).stem().string())),
-                  key("molecule", molecule), key("place", object(key("on", "volume"), key("box", box))),
-                  key("count", 100));
-}
 
 std::string titleOf(const JsonValue& element, size_t index) {
     for (const char* key : {"name", "type", "from"})
@@ -108,6 +73,12 @@ std::string titleOf(const JsonValue& element, size_t index) {
 }
 
 // ---- New elements
+
+JsonValue JsonRows::newElement(const Key& key, const JsonValue& list) const {
+    if (key.name == "groups") return smallestGroup(list, choices_("molecule").front());
+    if (key.name == "emitters") return newEmitter(list);
+    return smallestObject(*key.objects[0], text());
+}
 
 TextOf JsonRows::text() const {
     return [this](const Key& key) {
@@ -148,14 +119,15 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
             places_.push_back({&parent, name, {coordinates[0], coordinates[1], coordinates[2]}});
     };
     if (isPlace(key)) add(object, key.name, value);
-    JsonValue* box = key.kind == Kind::box ? findIn(object, key.name) : nullptr;
+    if (key.kind != Kind::box || !object.find(key.name)) return;
+    JsonValue& box = memberOf(object, key.name);
     for (const char* corner : {"low", "high"})
-        if (const JsonValue* numbers = box ? box->find(corner) : nullptr) add(*box, corner, *numbers);
+        if (const JsonValue* numbers = box.find(corner)) add(box, corner, *numbers);
 }
 
 // The row of a key changes what the object says of it, or whether it says anything.
 bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object) {
-    JsonValue* found = findIn(object, key.name);
+    JsonValue* found = object.find(key.name) ? &memberOf(object, key.name) : nullptr;
     JsonValue fresh = keys.usualValue(key);
     std::string label = inWords(key.name);
     const bool tree = key.kind == Kind::list || (key.kind == Kind::object && !key.member.optional);
@@ -165,19 +137,20 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
     // what has no value of its own where it is left out gets a box to tick
     if (!tree && !mayBeEmpty && !key.needed && keys.usualValue(key).kind == Json::null) {
         bool says = found != nullptr;
-        if (tick({label.c_str(), key.says.sentence.c_str()}, says)) {
-            if (says)
-                setMember(object, key.name, key.kind->least(key, text()));
-            else
-                leaveOut(object, key.name);
-            return true;
-        }
-        if (!found) return false;
+        bool changed = false;
+        const bool node = found && key.kind->row(key, *found) == RowForm::node;
+        if (node)
+            changed = drawNode(key, *found, &says);
+        else if (tick({label.c_str(), key.says.sentence.c_str()}, says) && says)
+            setMember(object, key.name, key.kind->least(key, text())), fresh_ = ImGui::GetID("node");
+        if (!says) leaveOut(object, key.name);
+        if (changed || says != (found != nullptr)) return true;
+        if (!found || node) return false;
         label.clear();
     }
     JsonValue& value = found ? *found : fresh;
     if (inList_) addPlaces(key, value, object);
-    if (!(tree ? drawNode(key, value, false) : drawPresent(key, value, label))) return false;
+    if (!(tree ? drawNode(key, value, nullptr) : drawPresent(keys, key, value, label))) return false;
     const bool empty = tree ? value.items.empty() && value.members.empty() : mayBeEmpty && value.text.empty();
     if (empty && !key.needed)
         leaveOut(object, key.name);
@@ -186,19 +159,28 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
     return true;
 }
 
-// A node that holds a list or the keys of an object.
-bool JsonRows::drawNode(const Key& key, JsonValue& value, bool startsOpen) {
+// A node that holds a list or the keys of an object. `says`: whether the file says anything of it, which a
+// box to tick changes.
+bool JsonRows::drawNode(const Key& key, JsonValue& value, bool* says) {
     const std::string count = key.kind == Kind::list ? concat(" (", value.items.size(), ")") : std::string();
-    const bool open = ImGui::TreeNodeEx(concat(inWords(key.name), count, "###node").c_str(),
-                                        startsOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool starts = std::find(opens.begin(), opens.end(), key.name) != opens.end();
+    if (fresh_ == ImGui::GetID("node")) ImGui::SetNextItemOpen(true), fresh_ = 0;
+    const bool open = ImGui::TreeNodeEx(
+        concat(inWords(key.name), count, "###node").c_str(),
+        (starts ? ImGuiTreeNodeFlags_DefaultOpen : 0) | (says ? ImGuiTreeNodeFlags_FramePadding : 0));
     tip(key.says.sentence.c_str());
+    if (says) {
+        besideLabel();
+        ImGui::Checkbox("##says", says);
+    }
     if (!open) return false;
     const bool changed = key.kind == Kind::list ? drawList(key, value) : draw(*key.objects[0], value);
     ImGui::TreePop();
     return changed;
 }
 
-bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& label) {
+bool JsonRows::drawPresent(const Description& keys, const Key& key, JsonValue& value,
+                           const std::string& label) {
     const Row row{label.c_str(), key.says.sentence.c_str()};
     switch (key.kind->row(key, value)) {
     case RowForm::tick:
@@ -223,15 +205,16 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     case RowForm::box: {
         bool changed = false;
         for (const char* end : {"low", "high"}) {
-            JsonValue* corner = findIn(value, end);
-            changed |= corner && drawNumbers(key, *corner, concat(label, ", ", end));
+            if (value.find(end)) changed |= drawNumbers(key, memberOf(value, end), concat(label, ", ", end));
         }
         return changed;
     }
     case RowForm::rotation:
         return drawRotation(key, value, label);
-    case RowForm::node:
-        return drawNode(key, value, true);
+    case RowForm::direction:
+        return drawDirection(key, value);
+    case RowForm::span:
+        return drawSpan(keys, key, value, label);
     default:
         return drawNumbers(key, value, label);
     }
@@ -268,6 +251,67 @@ bool JsonRows::drawTexts(const Row& row, JsonValue& value) {
     return true;
 }
 
+bool JsonRows::drawDirection(const Key& key, JsonValue& value) {
+    const std::vector<double> stored = numbersOf(value);
+    if (stored.size() != 3) return false;
+    glm::dvec3 direction(stored[0], stored[1], stored[2]);
+    if (glm::length(direction) > 0) direction = glm::normalize(direction);
+    if (!turnDirection(key.says.sentence.c_str(), direction, angles_[ImGui::GetID("angles")])) return false;
+    value = toJson(direction);
+    return true;
+}
+
+// Null: the description tells nothing of how far a slider would go.
+const Slider* JsonRows::sliderOf(const Key& key, const std::vector<double>& numbers) {
+    const bool slides = key.kind->numbers && (numbers.size() == 1 || key.kind->form == RowForm::span);
+    const bool share = key.says.range.least >= -10 && key.says.range.most <= 10;
+    if (!slides || (key.says.slider.least == key.says.slider.most && !share)) return nullptr;
+    return &sliders_.try_emplace(ImGui::GetID("slider"), shoal::sliderOf(key, numbers)).first->second;
+}
+
+namespace {
+
+bool isAngle(const Key& key) {
+    return key.says.unit.starts_with("rad");
+}
+
+// How the number of a row is written. Angles are shown in degrees.
+std::string formatOf(const Key& key, const Slider* slider) {
+    std::string digits = isWhole(key) ? "%.0f" : "%.5g";
+    // ImGui takes the decimals for the smallest number of a logarithmic slider that begins at 0.
+    if (slider && slider->steep && slider->least <= 0 && !isWhole(key))
+        digits = concat("%.", std::clamp(4 - int(std::floor(std::log10(slider->most))), 1, 9), "f");
+    if (isAngle(key)) return concat(digits, "\xC2\xB0", key.says.unit.substr(3));
+    return key.says.unit.empty() || key.kind == Kind::byHand ? digits : concat(digits, " ", key.says.unit);
+}
+
+// As many digits as were seen.
+double rounded(const Key& key, double number) {
+    return isWhole(key) ? std::round(number) : std::stod(formatted("%.6g", number));
+}
+
+}  // namespace
+
+// Two numbers of which a file may say one.
+bool JsonRows::drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label) {
+    const std::vector<double> stored = numbersOf(value);
+    const Slider* slider = sliderOf(key, stored);
+    if (!slider || stored.empty() || stored.size() > 2) return drawNumbers(key, value, label);
+    glm::dvec2 span(stored.front(), stored.back());
+    const std::vector<double> usual = numbersOf(keys.usualValue(key));
+    if (key.kind == Kind::ends && stored.size() == 1 && !usual.empty()) span.x = usual.front();
+    const glm::dvec2 before = span;
+    const std::string format = formatOf(key, slider);
+    const Row row{label.c_str(), key.says.sentence.c_str(),  format.c_str(),
+                  slider->steep, isAngle(key) ? degrees : 1, key.kind == Kind::ends};
+    if (!slideSpan(row, {slider->least, slider->most}, span)) return false;
+    for (int i = 0; i < 2; ++i)
+        if (span[i] != before[i]) span[i] = rounded(key, span[i]);
+    const bool single = key.kind == Kind::span ? span.x == span.y : !usual.empty() && span.x == usual.front();
+    value = single ? JsonValue::makeNumber(span.y) : toJson(span);
+    return true;
+}
+
 bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& label) {
     std::vector<double> numbers = numbersOf(value);
     const std::vector<double> stored = numbers;
@@ -276,34 +320,28 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
         ImGui::TextDisabled("%s", writeJsonLine(value).substr(0, 40).c_str());
         return false;
     }
-    const bool angle = key.says.unit == "rad";
+    const Slider* slider = sliderOf(key, numbers);
+    const std::string format = numbers.size() > 1 && !isAngle(key) ? "%.5g" : formatOf(key, slider);
+    Row row{label.c_str(), key.says.sentence.c_str(), format.c_str()};
+    row.scale = isAngle(key) ? degrees : 1;
     Limit limit = limitOf(key);
     if (key.kind == Kind::byHand) limit = {key.form.range.least, key.form.range.most};
     limit = {std::max(limit.least, -largestNumber), std::min(limit.most, largestNumber)};
-    const std::string unit = key.says.unit.empty() || key.kind == Kind::byHand || numbers.size() > 1
-                                 ? std::string()
-                                 : " " + key.says.unit;
-    const std::string format = isWhole(key) ? "%.0f" : concat("%.5g", angle ? "\xC2\xB0" : unit);
-    double largest = 0;
-    for (double& number : numbers) {
-        if (angle) number *= degrees;
-        largest = std::max(largest, std::abs(number));
+    bool changed = false;
+    if (slider && numbers.size() == 1) {
+        row.steep = slider->steep;
+        changed = slide(row, {slider->least, slider->most}, numbers[0]);
+        if (key.unlessZero && numbers[0] < key.says.range.least) numbers[0] = 0;
+    } else {
+        double largest = 0;
+        for (const double number : numbers)
+            largest = std::max(largest, std::abs(number * row.scale));
+        changed = drag(row, limit, numbers.data(), int(numbers.size()),
+                       std::max(isWhole(key) ? 0.2 : 0.005, largest / 200));
     }
-    if (angle) limit = {limit.least * degrees, limit.most * degrees};
-    const std::vector<double> shown = numbers;
-    const double speed = isWhole(key) ? std::max(0.2, largest / 200) : std::max(0.005, largest / 200);
-    if (!drag({label.c_str(), key.says.sentence.c_str(), format.c_str()}, limit, numbers.data(),
-              int(numbers.size()), speed))
-        return false;
-    for (size_t i = 0; i < numbers.size(); ++i) {
-        if (numbers[i] == shown[i]) {  // not touched
-            numbers[i] = stored[i];
-            continue;
-        }
-        if (angle) numbers[i] /= degrees;
-        // as many digits as were seen
-        numbers[i] = isWhole(key) ? std::round(numbers[i]) : std::stod(formatted("%.6g", numbers[i]));
-    }
+    if (!changed) return false;
+    for (size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] != stored[i]) numbers[i] = rounded(key, numbers[i]);
     value = asJson(numbers, value.kind == Json::array);
     return true;
 }
@@ -335,54 +373,58 @@ bool JsonRows::drawKind(const Key& key, JsonValue& object) {
 }
 
 bool JsonRows::drawList(const Key& key, JsonValue& list) {
-    bool changed = false;
     const Description& element = *key.objects[0];
     const bool within = std::exchange(inList_, true);
+    const bool colors = key.name == "colors";
+    const bool starts = std::find(opens.begin(), opens.end(), key.name) != opens.end();
+    bool changed = false;
     std::optional<size_t> copied, removed;
+    if (colors) drawColorBar(list);
     for (size_t i = 0; i < list.items.size(); ++i) {
         ImGui::PushID(int(i));
-        if (ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str())) {
-            if (ImGui::SmallButton("Duplicate")) copied = i;
-            ImGui::SameLine();
+        if (fresh_ == ImGui::GetID("element")) ImGui::SetNextItemOpen(true), fresh_ = 0;
+        if (ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str(),
+                              starts && list.items.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            if (!colors && ImGui::SmallButton("Duplicate")) copied = i;
+            if (!colors) ImGui::SameLine();
             if (ImGui::SmallButton("Remove")) removed = i;
-            changed |= draw(element, list.items[i]);
+            const bool edited = draw(element, list.items[i]);
+            if (edited && colors) keepAge(list, i);
+            changed |= edited;
             ImGui::TreePop();
         }
         ImGui::PopID();
     }
-    if (copied) {
-        JsonValue copy = list.items[*copied];
-        if (const JsonValue* own = copy.find("name"); own && !own->text.empty())
-            setMember(copy, "name", JsonValue::makeString(freeName(list, own->text)));
-        list.items.insert(list.items.begin() + std::ptrdiff_t(*copied + 1), std::move(copy));
-    }
-    if (removed) list.items.erase(list.items.begin() + std::ptrdiff_t(*removed));
-    if (copied || removed) {
-        places_.clear();  // they have moved
-        changed = true;
-    }
     inList_ = within;
-    const auto addOne = [&](JsonValue item) {
-        list.items.push_back(std::move(item));
-        places_.clear();  // they have moved
-        changed = true;
-    };
+    std::optional<std::pair<size_t, JsonValue>> added;  // where, and what
+    if (copied) added.emplace(*copied + 1, list.items[*copied]);
+    if (removed) list.items.erase(list.items.begin() + std::ptrdiff_t(*removed)), changed = true;
     const Key* kinds = variantOf(element);
     if (ImGui::SmallButton("Add")) {
-        if (kinds)
-            ImGui::OpenPopup("kinds");
-        else
-            addOne(key.name == "groups" ? smallestGroup(list, choices_("molecule").front())
-                                        : smallestObject(element, text()));
+        if (kinds) ImGui::OpenPopup("kinds");
+        if (colors) addColorKey(list), changed = true;
+        if (!kinds && !colors) added.emplace(list.items.size(), newElement(key, list));
     }
     tip(element.sentence().c_str());
     if (kinds && ImGui::BeginPopup("kinds")) {
         for (const Description* kind : kinds->objects) {
-            if (ImGui::Selectable(kind->name().c_str())) addOne(smallestObject(element, *kind, text()));
+            if (ImGui::Selectable(kind->name().c_str()))
+                added.emplace(list.items.size(), smallestObject(element, *kind, text()));
             tip(kind->sentence().c_str());
         }
         ImGui::EndPopup();
     }
+    if (added) {
+        auto& [index, item] = *added;
+        if (const JsonValue* own = item.find("name"); own && !own->text.empty())
+            setMember(item, "name", JsonValue::makeString(freeName(list, own->text)));
+        list.items.insert(list.items.begin() + std::ptrdiff_t(index), std::move(item));
+        ImGui::PushID(int(index));
+        fresh_ = ImGui::GetID("element");
+        ImGui::PopID();
+        changed = true;
+    }
+    if (changed) places_.clear();  // they have moved
     return changed;
 }
 

@@ -1,11 +1,14 @@
-// Rows for the keys of an object of a scene file, by its description (core/description.h): whatever a file
+// Rows for the keys of an object of a file, by its description (core/description.h): whatever a file
 // may say has one, but for what is read by hand and is more than a number, a text or a list of numbers. What
-// a file leaves out is shown as what it then is.
+// a file leaves out is shown as what it then is. The only rows that the window has for scenes.
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
+
+#include <imgui.h>
 
 #include "core/description.h"
 #include "core/json.h"
@@ -24,6 +27,7 @@ class JsonRows {
     bool draw(const Description& keys, JsonValue& object);
     // The elements of a list, each with buttons, and a button to add one.
     bool drawList(const Key& key, JsonValue& list);
+    std::vector<std::string> opens;  // keys whose nodes are open at first, and the only element of a list
 
     // A place that a key of an element of a list names, which was drawn.
     struct Place {
@@ -32,29 +36,32 @@ class JsonRows {
         glm::dvec3 position;  // m
     };
     const std::vector<Place>& places() const { return places_; }
+    void forgetPlaces() { places_.clear(); }  // before a frame
 
   private:
     bool drawKey(const Description& keys, const Key& key, JsonValue& object);
     void addPlaces(const Key& key, const JsonValue& value, JsonValue& object);
-    bool drawPresent(const Key& key, JsonValue& value, const std::string& label);
-    bool drawNode(const Key& key, JsonValue& value, bool startsOpen);
+    bool drawPresent(const Description& keys, const Key& key, JsonValue& value, const std::string& label);
+    bool drawNode(const Key& key, JsonValue& value, bool* says);
     bool drawRotation(const Key& key, JsonValue& value, const std::string& label);
+    bool drawDirection(const Key& key, JsonValue& value);
     bool drawTexts(const Row& row, JsonValue& value);
     bool drawNumbers(const Key& key, JsonValue& value, const std::string& label);
+    bool drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label);
     bool drawText(const Key& key, JsonValue& value, const std::string& label);
     bool drawKind(const Key& key, JsonValue& object);
+    JsonValue newElement(const Key& key, const JsonValue& list) const;
+    const Slider* sliderOf(const Key& key, const std::vector<double>& numbers);
     TextOf text() const;  // the first choice, or the key's name
 
     Choices choices_;
     std::vector<Place> places_;
     bool inList_ = false;  // an element is being drawn
+    ImGuiID fresh_ = 0;    // a node that was added, which opens
+    // By the row's place in the window, since a slider that follows its number would run away.
+    std::map<ImGuiID, Slider> sliders_;
+    std::map<ImGuiID, glm::dvec2> angles_;  // rad, of directions
 };
-
-// In place of what the object says of the key, if anything.
-void setMember(JsonValue& object, const std::string& key, JsonValue value);
-
-// A group of a molecule beside others. Rules between keys ask for more than a description tells: places.
-JsonValue smallestGroup(const JsonValue& groups, const std::string& molecule);
 
 // "sphere", or the name of an element of a list, or its number.
 std::string titleOf(const JsonValue& element, size_t index);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <utility>
 
 #include "core/printable.h"
 #include "run/checkpoints.h"
@@ -18,10 +19,10 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
     : request(std::move(given)),
       running(request, context, std::move(loaded), width, height),
       controls(running.simulation().plan()),
-      panel(running.original()),
-      scenePanel(running.scene),
-      camera(View::fromCamera(running.scene.camera)) {
-    explanations = std::make_unique<Explanations>(context, running.scene, simulation().plan());
+      panel(running.scene()),
+      scenePanel(running.scene()),
+      camera(View::fromCamera(running.scene().camera)) {
+    explanations = std::make_unique<Explanations>(context, running.scene(), simulation().plan());
     reload.follow(running, true);
     checkSave(request);
     if (request.resume.empty()) return;
@@ -30,21 +31,30 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
 }
 
 void OpenScene::follow() {
+    scenePanel.follow();
+    if (std::exchange(builds_, running.builds()) == running.builds()) return;
     const Plan& plan = simulation().plan();
     controls.follow(plan);
-    panel.follow(running.original());
-    scenePanel.follow(running.scene);
-    camera.start(View::fromCamera(running.scene.camera));
+    panel.follow(running.scene());
+    camera.start(View::fromCamera(running.scene().camera));
     reload.follow(running, false);
     timeLine.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
-    explanations = std::make_unique<Explanations>(simulation().context(), running.scene, plan);
+    explanations = std::make_unique<Explanations>(simulation().context(), running.scene(), plan);
     explanations->settings = settings;
     const bool exists =
         picked && picked->group < plan.groups.size() && picked->molecule < plan.groups[picked->group].count;
     if (exists) explanations->picked = picked;
     if (!exists) forget();
+}
+
+void OpenScene::writeControls() {
+    running.change(withControls(running.document().json(), running.scene(), controls));
+    const bool paused = controls.paused;
+    controls = Controls(simulation().plan());
+    controls.paused = paused;
+    simulation().parameters = parametersOf(simulation().plan());
 }
 
 void OpenScene::saveIfAsked(bool end) {
@@ -60,7 +70,7 @@ void OpenScene::saveIfAsked(bool end) {
 
 std::string OpenScene::saveForInspection(const Runaway& runaway) const {
     const std::string folder = std::filesystem::path(request.save).parent_path().string();
-    return shoal::saveForInspection(folder, running.original().file, simulation(), runaway);
+    return shoal::saveForInspection(folder, running.document().file(), simulation(), runaway);
 }
 
 View OpenScene::view() const {
@@ -72,7 +82,7 @@ View OpenScene::view() const {
 void OpenScene::drawPicture(double lineWidth) {
     explanations->settings.lineWidth = lineWidth;
     Renderer& renderer = running.renderer();
-    explanations->prepare(running.scene, simulation(), view());
+    explanations->prepare(running.scene(), simulation(), view());
     renderer.draw(simulation().state(), view(), explanations->any() ? explanations.get() : nullptr);
 }
 
@@ -92,7 +102,7 @@ void OpenScene::pick(int height) {
     const Plan& plan = simulation().plan();
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         if (plan.groups[g].count == 0) continue;
-        const Group& group = running.scene.groups[plan.groups[g].index];
+        const Group& group = running.scene().groups[plan.groups[g].index];
         const std::optional<RayHit> hit =
             firstHit(ray, simulation().snapshot(g), group.molecule, pointRadius(group), angle);
         if (!hit || hit->distance >= nearest) continue;
@@ -113,7 +123,7 @@ void OpenScene::readPicked() {
     const PickedMolecule picked = *explanations->picked;
     const GroupPlan& group = simulation().plan().groups[picked.group];
     numbers = numbersOf(simulation().readMolecule(picked.group, size_t(picked.molecule)),
-                        running.scene.groups[group.index].molecule,
+                        running.scene().groups[group.index].molecule,
                         group.stiffness * simulation().parameters.stiffness);
     if (follows && numbers->alive) camera.follow(numbers->middle);
 }
@@ -184,7 +194,7 @@ void OpenScene::drawPicked(float left, float bottom) {
         list.AddCircle(*center, points(14), IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
     }
     const PickedMolecule& picked = *explanations->picked;
-    const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
+    const Group& group = running.scene().groups[simulation().plan().groups[picked.group].index];
     if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left, bottom)) forget();
 }
 

@@ -31,8 +31,10 @@ struct OpenScene {
 
     Simulation& simulation() { return running.simulation(); }
     const Simulation& simulation() const { return running.simulation(); }
-    void follow();  // after the scene was built anew
-    bool unsaved() const { return running.unsaved() || scenePanel.drafted(); }
+    void follow();  // after the scene was changed
+    // What the sliders multiply becomes the scene's own. Error: RunningScene's; nothing has changed.
+    void writeControls();
+    bool unsaved() const { return running.document().unsaved() || scenePanel.drafted(); }
     // Saves what --save names: at the frames of --save-frames as the run passes them, else once at its end.
     void saveIfAsked(bool end);
     // Saves a state that ran away; returns the sentence that tells the user.
@@ -47,6 +49,9 @@ struct OpenScene {
     void drawPicked(float left, float bottom);
     View view() const;                   // of now
     void drawPicture(double lineWidth);  // pixels, of springs and arrows
+
+  private:
+    int builds_ = 1;  // of `running`, that were followed
 };
 
 // Where the pointer is on a plane through what the camera looks at.

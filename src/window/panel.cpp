@@ -3,11 +3,15 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "compile/generate.h"
+#include "core/json_build.h"
 #include "run/data_paths.h"
+#include "scene/force_kinds.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
 
@@ -23,6 +27,24 @@ std::vector<std::string> shippedMolecules() {
     }
     std::sort(files.begin(), files.end());
     return files;
+}
+
+std::vector<std::string> moleculesFor(const std::string& sceneFile) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::absolute(sceneFile).parent_path();
+    std::vector<std::string> out;
+    std::error_code code;
+    for (const std::string& file : shippedMolecules())
+        out.push_back(fs::relative(file, folder, code).generic_string());
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
+        std::array<char, 512> start{};
+        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
+        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
+        const std::string name = entry.path().filename().string();
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
 }
 
 Controls::Controls(const Plan& plan)
@@ -69,30 +91,70 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
                                          parameters.drag, substeps);
 }
 
-Panel::Panel(const Scene& scene) : molecules_(shippedMolecules()) {
+bool Controls::moved(const Plan& plan) const {
+    Controls usual(plan);
+    const auto same = [](const std::vector<float>& factors) {
+        return std::all_of(factors.begin(), factors.end(), [](float factor) { return factor == 1; });
+    };
+    return gravityFactor != 1 || wind != 1 || drag != 1 || stiffness != 1 || damping != 1 ||
+           substeps != usual.substeps || !same(forces) || !same(fields);
+}
+
+// Multiplies a number, or each of a list or of an object's members.
+static void multiply(JsonValue& value, double factor) {
+    if (value.kind == JsonValue::Kind::number) value = toJson(value.number * factor);
+    for (JsonValue& item : value.items)
+        multiply(item, factor);
+    for (JsonMember& member : value.members)
+        multiply(member.second, factor);
+}
+
+JsonValue withControls(JsonValue root, const Scene& scene, const Controls& controls) {
+    const auto multiplyMember = [](JsonValue& object, const char* key, double usual, double factor) {
+        if (factor == 1) return;
+        if (!object.find(key) && usual != 0) object.add(key, toJson(usual));
+        if (object.find(key)) multiply(memberOf(object, key), factor);
+    };
+    const auto each = [&](const char* list, const auto& edit) {
+        if (!root.find(list)) return;
+        std::vector<JsonValue>& items = memberOf(root, list).items;
+        for (size_t i = 0; i < items.size(); ++i)
+            edit(items[i], i);
+    };
+    multiplyMember(root, "gravity", 0, double(controls.gravityFactor));
+    each("fields", [&](JsonValue& field, size_t i) {
+        multiplyMember(field, "weight", 1, double(controls.wind) * double(controls.fields[i]));
+    });
+    each("forces", [&](JsonValue& force, size_t i) {
+        if (controls.forces[i] == 1) return;
+        std::visit(
+            [&](const auto& kind) {
+                for (const Key& key : describe(&kind).keys())
+                    leaveOut(force, key.name);
+                for (JsonMember& member :
+                     describe(&kind).write(kind.times(double(controls.forces[i]))).members)
+                    force.add(member.first, std::move(member.second));
+            },
+            *scene.forces[i].shape);
+    });
+    each("groups", [&](JsonValue& group, size_t) {
+        multiplyMember(group, "drag", 0, double(controls.drag));
+        multiplyMember(group, "stiffness", 1, double(controls.stiffness));
+        multiplyMember(group, "damping", 1, double(controls.damping));
+    });
+    if (controls.substeps != controls.plannedSubsteps)
+        setMember(memberOf(root, "solver"), "substeps", toJson(controls.substeps));
+    return root;
+}
+
+Panel::Panel(const Scene& scene) : molecules_(moleculesFor(scene.file)) {
     follow(scene);
 }
 
 void Panel::follow(const Scene& scene) {
     sceneName_ = scene.name;
     error.clear();
-    std::vector<Listed> before = std::move(groups_);
-    groups_.clear();
-    for (const Group& group : scene.groups) {
-        Listed listed;
-        listed.name = group.name;
-        listed.count = listed.chosen = group.count;
-        listed.particles = group.particle.has_value();
-        listed.fixed = group.count == 0 || group.place.kind == Placement::Kind::grid ||
-                       group.place.kind == Placement::Kind::list;
-        for (const Listed& old : before) {
-            if (old.name != listed.name) continue;
-            listed.molecule = old.molecule;
-            if (old.chosen != old.count) listed.chosen = old.chosen;
-        }
-        groups_.push_back(std::move(listed));
-    }
-    group_ = std::min(group_, int(groups_.size()) - 1);
+    group_ = std::min(group_, int(scene.groups.size()) - 1);
     const auto nameOf = [](const auto& item, size_t index) {
         return item.name.empty() ? concat(kindName(*item.shape), " ", index + 1) : item.name;
     };
@@ -104,39 +166,31 @@ void Panel::follow(const Scene& scene) {
         forceNames_.push_back(nameOf(scene.forces[i], i) + (scene.forces[i].mouse ? " (Shift)" : ""));
 }
 
-void Panel::apply(Choices& choices) const {
-    for (const Listed& group : groups_) {
-        GroupChoice& choice = choices.groups[group.name];
-        choice.count.reset();
-        if (group.chosen != group.count) choice.count = group.chosen;
-        choice.molecule = group.molecule;
-    }
-    choices.solver.reset();
-    if (solver_) choices.solver = solverOf(solverWords()[size_t(*solver_)]);
-}
-
 // A part of the panel that folds away.
 static bool section(const char* title, bool open) {
     ImGui::Dummy(ImVec2(0, points(1)));
     return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
-Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer,
-                          Explanations& explanations, double frameSeconds, const gpu::Traffic& lastFrame) {
+Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanations& explanations,
+                          double frameSeconds, const gpu::Traffic& lastFrame) {
+    Simulation& simulation = running.simulation();
     const float edge = points(12), width = points(304);
     ImGui::SetNextWindowPos(ImVec2(edge, edge), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
                                         ImVec2(width, ImGui::GetIO().DisplaySize.y - 2 * edge));
     ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(points(150));
-    const Action clock = drawClock(controls, simulation);
-    drawForces(controls, simulation);
-    const Action groups = drawGroups(), method = drawMethod(controls, simulation);
+    Action action = Action::none;
+    for (const Action asked :
+         {drawClock(controls, simulation), drawForces(controls, simulation), drawGroups(running),
+          drawMethod(controls, running), drawTrials(running.document())})
+        if (action == Action::none) action = asked;
     drawView(explanations, simulation);
-    drawCost(simulation, renderer, frameSeconds, lastFrame);
+    drawCost(simulation, running.renderer(), frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
-    return clock != Action::none ? clock : groups != Action::none ? groups : method;
+    return action;
 }
 
 Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
@@ -160,8 +214,8 @@ Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation)
     return action;
 }
 
-void Panel::drawForces(Controls& controls, const Simulation& simulation) {
-    if (!section("Forces", true)) return;
+Panel::Action Panel::drawForces(Controls& controls, const Simulation& simulation) {
+    if (!section("Forces", true)) return Action::none;
     const auto any = [&](bool Needs::*need) {
         return std::any_of(simulation.plan().groups.begin(), simulation.plan().groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
@@ -189,50 +243,76 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
         ImGui::PopID();
     }
     ImGui::PopID();
+    if (!controls.moved(simulation.plan())) return Action::none;
+    const bool written = ImGui::SmallButton("Write into the scene");
+    tip("The scene takes what these sliders and the substeps now say.");
+    return written ? Action::write : Action::none;
 }
 
-Panel::Action Panel::drawGroups() {
+Panel::Action Panel::drawGroups(const RunningScene& running) {
     if (!section("Molecules", true)) return Action::none;
-    bool changed = false;
-    Listed& group = groups_[size_t(group_)];
-    if (groups_.size() > 1 && ImGui::BeginCombo("Group", group.name.c_str())) {
-        for (int g = 0; g < int(groups_.size()); ++g)
-            if (ImGui::Selectable(concat(groups_[size_t(g)].name, "##", g).c_str(), g == group_)) group_ = g;
+    const std::vector<Group>& groups = running.scene().groups;
+    const Group& group = groups[size_t(group_)];
+    if (groups.size() > 1 && ImGui::BeginCombo("Group", group.name.c_str())) {
+        for (int g = 0; g < int(groups.size()); ++g)
+            if (ImGui::Selectable(concat(groups[size_t(g)].name, "##", g).c_str(), g == group_)) group_ = g;
         ImGui::EndCombo();
     }
-    ImGui::BeginDisabled(group.fixed);
-    ImGui::SliderInt("Number", &group.chosen, 1, std::max(20000, 2 * group.count), "%d",
+    const bool placed =
+        group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
+    std::optional<JsonValue> count, molecule;
+    ImGui::BeginDisabled(group.count == 0 || placed);
+    int number = number_.value_or(group.count);
+    ImGui::SliderInt("Number", &number, 1, std::max(20000, 2 * group.count), "%d",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    changed |= ImGui::IsItemDeactivatedAfterEdit();
+    if (ImGui::IsItemActive()) number_ = number;
+    if (ImGui::IsItemDeactivatedAfterEdit()) count = toJson(number);
+    if (!ImGui::IsItemActive()) number_.reset();
     ImGui::EndDisabled();
-    const auto name = [](const std::string& file) {
-        return file.empty() ? std::string("as in the scene") : std::filesystem::path(file).stem().string();
-    };
-    if (!group.particles && ImGui::BeginCombo("Kind", name(group.molecule).c_str())) {
-        const auto choose = [&](const std::string& file) {
-            if (!ImGui::Selectable(name(file).c_str(), file == group.molecule)) return;
-            group.molecule = file;
-            changed = true;
-        };
-        choose({});
+    const auto name = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+    if (!group.particle && ImGui::BeginCombo("Kind", name(group.molecule.file).c_str())) {
         for (const std::string& file : molecules_)
-            choose(file);
+            if (ImGui::Selectable(name(file).c_str(), name(file) == name(group.molecule.file)))
+                molecule = toJson(file);
         ImGui::EndCombo();
     }
-    return changed ? Action::rebuild : Action::none;
+    if (!count && !molecule) return Action::none;
+    tried_ = running.document().json();
+    JsonValue& says = memberOf(tried_, "groups").items[size_t(group_)];
+    if (molecule) setMember(says, "molecule", *molecule);
+    if (!count) return Action::tryOut;
+    setMember(says, "count", *count);
+    if (group.life && group.life->capacity < number) setMember(memberOf(says, "life"), "capacity", *count);
+    return Action::tryOut;
+}
+
+Panel::Action Panel::drawTrials(const SceneDocument& document) {
+    if (!document.tries()) return Action::none;
+    Action action = Action::none;
+    ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "Tried out, not saved:");
+    tip("Numbers, kinds and the solver that were chosen above, or on the command line.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Keep")) action = Action::keep;
+    tip("The scene takes them, and saves them with the rest.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Drop")) action = Action::drop;
+    tip("Back to what the scene says.");
+    return action;
 }
 
 // Whatever is chosen goes on from the same state.
-Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation) {
+Panel::Action Panel::drawMethod(Controls& controls, const RunningScene& running) {
     if (!section("Method", true)) return Action::none;
+    const Simulation& simulation = running.simulation();
     Action action = Action::none;
-    const std::vector<std::string>& words = solverWords();
-    const char* shown = solver_ ? words[size_t(*solver_)].c_str() : "as in the scene";
-    if (ImGui::BeginCombo("Solver", shown)) {
-        if (ImGui::Selectable("as in the scene", !solver_)) solver_.reset(), action = Action::rebuild;
-        for (int i = 0; i < int(words.size()); ++i)
-            if (ImGui::Selectable(words[size_t(i)].c_str(), solver_ == i))
-                solver_ = i, action = Action::rebuild;
+    const std::optional<SolverKind> kind = running.scene().solver.kind;
+    if (ImGui::BeginCombo("Solver", kind ? name(*kind) : "auto")) {
+        for (const std::string& word : solverWords()) {
+            if (!ImGui::Selectable(word.c_str(), solverOf(word) == kind)) continue;
+            tried_ = running.document().json();
+            setMember(memberOf(tried_, "solver"), "method", toJson(word));
+            action = Action::tryOut;
+        }
         ImGui::EndCombo();
     }
     ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);

@@ -1,6 +1,7 @@
 // The two panels of the viewer: how the scene runs, and what it says of its groups.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,12 +10,13 @@
 #include "simulate/simulation.h"
 #include "window/explanations.h"
 #include "window/json_rows.h"
-#include "window/key_rows.h"
 #include "window/running_scene.h"
 
 namespace shoal::window {
 
 std::vector<std::string> shippedMolecules();  // files
+// The molecules that ship and those beside a scene, as its file names them.
+std::vector<std::string> moleculesFor(const std::string& sceneFile);
 
 // ---- How the scene runs
 
@@ -32,50 +34,58 @@ struct Controls {
     void follow(const Parameters& parameters);  // as a run that was resumed has them
     void follow(const Plan& plan);              // of a scene that was built anew: what the user moved stays
     void lead(Parameters& parameters, const Plan& plan, double seconds) const;
+    bool moved(const Plan& plan) const;  // some slider, from where the scene has it
 };
 
 // Decker's interface (forces, number and kind of molecules), the clock, how it is solved, and what a frame
-// costs.
+// costs. Numbers, kinds and the solver are tried out: edits of the scene's document for this run alone.
 class Panel {
   public:
-    enum class Action { none, step, restart, rebuild, switchPath, resetCamera, scenes, measure };
+    enum class Action {
+        none,
+        step,
+        restart,
+        tryOut,
+        keep,
+        drop,
+        write,
+        switchPath,
+        resetCamera,
+        scenes,
+        measure
+    };
 
     explicit Panel(const Scene& scene);
     void follow(const Scene& scene);  // that was built anew
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, Explanations& explanations,
-                double frameSeconds, const gpu::Traffic& lastFrame);
+    Action draw(Controls& controls, RunningScene& running, Explanations& explanations, double frameSeconds,
+                const gpu::Traffic& lastFrame);
+    const JsonValue& tried() const { return tried_; }  // what the scene is to say after tryOut
 
-    // Puts the choices for which draw() asks for a rebuild into `choices`.
-    void apply(Choices& choices) const;
     std::string error;            // of the method, as measured; empty: it was not
     Path path = Path::automatic;  // that runs, and after switchPath the one to go on with
 
   private:
     Action drawClock(Controls& controls, const Simulation& simulation);
-    void drawForces(Controls& controls, const Simulation& simulation);
-    Action drawGroups();
-    Action drawMethod(Controls& controls, const Simulation& simulation);
+    Action drawForces(Controls& controls, const Simulation& simulation);
+    Action drawTrials(const SceneDocument& document);
+    Action drawGroups(const RunningScene& running);
+    Action drawMethod(Controls& controls, const RunningScene& running);
     void drawView(Explanations& explanations, const Simulation& simulation);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                   const gpu::Traffic& lastFrame);
 
-    struct Listed {
-        std::string name;
-        int count = 0;           // as in the scene
-        bool fixed = false;      // placed one by one, or none at the start: the number cannot be changed
-        bool particles = false;  // which are of no other kind
-        std::string molecule;    // chosen file; empty: as in the scene
-        int chosen = 0;          // count
-    };
-    std::vector<Listed> groups_;
-    std::vector<std::string> molecules_;  // files to choose from
-    int group_ = 0;                       // of groups_, that is shown
-    std::optional<int> solver_;           // chosen: of solverWords()
+    JsonValue tried_;
+    int group_ = 0;                       // of the scene, that is shown
+    std::optional<int> number_;           // while its slider is held
+    std::vector<std::string> molecules_;  // to choose from, as the scene names them
     std::vector<std::string> forceNames_, fieldNames_;
     std::string sceneName_;
 };
+
+// The scene with what the sliders multiply: gravity, fields and forces, drag, springs, and the substeps.
+JsonValue withControls(JsonValue root, const Scene& scene, const Controls& controls);
 
 // Draws the time of each pass in the last frames: stacked over time, and as a table in the same colours.
 void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing);
@@ -87,30 +97,21 @@ std::string methodError(const Scene& scene, const Simulation& simulation);
 
 // ---- What the scene says of its groups
 
-// Sliders for birth and death of a group of the scene; whether the user changed it in this frame.
-bool drawEmitters(Scene& scene, size_t group, KeyRows& rows);
-bool drawLife(Scene& scene, size_t group, KeyRows& rows);
-// Sliders for the looks of point particles, likewise. `ages`: the group has a life cycle.
-bool drawParticles(ParticleType& type, bool ages, KeyRows& rows);
-
-// Each group's looks, birth and death, edited while it runs, and saved into the scene file.
+// All that the scene says, or its groups alone, edited while it runs.
 //
-// Edits take effect at once where they can; for those that need another plan the panel asks for a rebuild
-// when the user releases the widget.
+// What is edited takes effect at once where the run can take it as it goes on, else when the user releases
+// the widget.
 class ScenePanel {
   public:
-    enum class Action { none, save, revert, rebuild, change, undo, redo };
+    enum class Action { none, save, revert, change, undo, redo };
 
-    explicit ScenePanel(const Scene& scene) { follow(scene); }
+    explicit ScenePanel(const Scene& scene);
 
-    bool changed() const { return changed_; }         // in the last draw
     void showWhole() { whole_ = true; }               // the scene, instead of its groups
     bool holds() const { return held_.has_value(); }  // something in the picture, for the pointer
-    bool pending() const { return pending_; }         // something was edited that does not run yet
-    // Edits running.scene and its choices. `unsaved`: it is not as its file. `view`: what is seen.
+    // `unsaved`: it is not as its file. `view`: what is seen.
     Action draw(RunningScene& running, bool unsaved, const View& view);
-    // The scene's groups are others than those that were edited: after a rebuild or one that failed.
-    void follow(const Scene& scene);
+    void follow() { stale_ = true; }  // the document says something else
     // The scene that Action::change asks for; null: none. accept() removes it from the panel. After refuse()
     // it stays there, to be completed or dropped.
     const JsonValue* draft() const { return draft_ && draft_->changed ? &draft_->json : nullptr; }
@@ -121,32 +122,32 @@ class ScenePanel {
     void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
 
   private:
-    struct Edited {
-        size_t group = 0;  // of the scene
-        KeyRows rows;
-        LifeCounts counts = {};
-        double countedAt = -1;  // s, of the wall clock
-    };
-    Action drawHead(const Scene& scene, bool unsaved);
-    Action drawWhole(RunningScene& running, const View& view);
+    Action drawHead(const SceneDocument& document, bool unsaved);
+    Action drawSteps(const RunningScene& running, const View& view);
+    bool drawGroups(RunningScene& running);
+    void drawCounts(Simulation& simulation, size_t planGroup);
+    void renew(const RunningScene& running);
+    void goLive(RunningScene& running);
     bool moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may);
-    void drawGroup(Edited& edited, RunningScene& running);
-    void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
 
-    std::vector<Edited> groups_;
+    JsonRows rows_;
+    std::map<std::string, std::vector<std::string>> words_;  // that a key may say
+    struct Counted {
+        LifeCounts counts = {};
+        double time = -1;  // s, of the wall clock
+    };
+    std::map<size_t, Counted> counted_;  // by the group in the plan
     std::string said_;
-    bool changed_ = false;
     bool lives_ = false;          // some group has particles, a life cycle or a school
-    bool pending_ = false;        // a rebuild, when the user releases the widget
     bool whole_ = false;          // all that the file says is shown, instead of the groups
+    bool stale_ = false;          // the document has changed since the draft was taken
     std::optional<size_t> held_;  // the handle that the pointer moves
+    std::string broken_;          // why what is held cannot run as it is
     struct Draft {
         JsonValue base, json;  // what the scene said, and is to say
         bool changed = false, refused = false;
-        bool stale = false;  // the scene has changed otherwise since
     };
     std::optional<Draft> draft_;
-    std::vector<std::string> molecules_;  // that a group may have, as the file names them
 };
 
 }  // namespace shoal::window

@@ -8,24 +8,13 @@
 #include "gpu/program_cache.h"
 #include "molecule/molecule_file.h"
 #include "run/progress.h"
-#include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "simulate/carry_over.h"
-#include "window/json_rows.h"
+#include "window/new_elements.h"
 
 namespace shoal::window {
 
 namespace {
-
-void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
-    for (size_t g = 0; g < from.size(); ++g)
-        copyEdited(from[g], to[g]);
-}
-
-void settleParticles(Scene& scene) {
-    for (Group& group : scene.groups)
-        if (group.particle) group.molecule = moleculeOf(*group.particle);
-}
 
 // As they stand, so that sliders go on from there; what is new is as the plan has it.
 Parameters carriedParameters(const Parameters& old, const Parameters& fresh) {
@@ -38,21 +27,13 @@ Parameters carriedParameters(const Parameters& old, const Parameters& fresh) {
     return out;
 }
 
-const Group* named(const Scene& scene, const std::string& name) {
-    for (const Group& group : scene.groups)
-        if (group.name == name) return &group;
-    return nullptr;
-}
-
 }  // namespace
 
 RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, Loaded loaded, int width,
                            int height)
     : request_(request),
       context_(&context),
-      original_(loaded.scene),
-      text_(readFile(original_.file)),
-      saved_(text_),
+      document_(loaded.scene, request),
       path_(request.path),
       width_(width),
       height_(height) {
@@ -81,30 +62,33 @@ std::unique_ptr<Simulation> RunningScene::simulateAsBefore(const Plan& plan, Pat
     }
 }
 
-// What runs stays until the new one is whole. Programs of a picture are made when it is drawn, so one picture
-// tells whether they can be.
+// Programs of a picture are made when it is drawn, so one picture tells whether they can be.
+std::unique_ptr<Renderer> RunningScene::draws(const Scene& scene, Simulation& simulation) const {
+    RenderOptions size;
+    size.width = renderer_ ? renderer_->width() : width_;
+    size.height = renderer_ ? renderer_->height() : height_;
+    size.timing = simulation.timers().mode();
+    auto out = std::make_unique<Renderer>(*context_, scene, simulation.plan(), size);
+    if (renderer_) out->draw(simulation.state(), View::fromCamera(scene.camera, simulation.time()));
+    return out;
+}
+
+// What runs stays until the new one is whole.
 std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path path) {
     std::unique_ptr<Simulation> simulation = simulateAsBefore(plan, path);
     tellWarnings(simulation->warnings());
     tellWarnings(context_->cache().takeWarnings());
-    RenderOptions size;
-    size.width = renderer_ ? renderer_->width() : width_;
-    size.height = renderer_ ? renderer_->height() : height_;
-    size.timing = simulation->timers().mode();
-    auto renderer = std::make_unique<Renderer>(*context_, next, simulation->plan(), size);
     std::vector<std::string> restarted;
     if (simulation_) {
         GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());
         simulation->load(gone.state);
         simulation->parameters = carriedParameters(simulation_->parameters, simulation->parameters);
-        renderer->draw(simulation->state(), View::fromCamera(scene.camera, simulation_->time()));
         restarted = std::move(gone.restarted);
     }
-    renderer_ = std::move(renderer);
+    renderer_ = draws(next, *simulation);
     simulation_ = std::move(simulation);
-    scene = std::move(next);
-    accepted_ = scene.groups;
-    acceptedChoices_ = choices;
+    scene_ = std::move(next);
+    ++builds_;
     return restarted;
 }
 
@@ -121,155 +105,128 @@ Plan RunningScene::compileStably(Scene& next) const {
     return compile(next);
 }
 
-std::vector<std::string> RunningScene::build(Scene next, bool warns) {
-    settleParticles(next);
+std::vector<std::string> RunningScene::build(Scene next) {
     const Plan plan = compileStably(next);
-    if (warns) tellWarnings(plan.warnings);
+    tellWarnings(plan.warnings);
     return build(std::move(next), plan, path_);
 }
 
-void RunningScene::applyChoices(Scene& next, const Scene& from) const {
-    next.solver.kind = choices.solver.value_or(from.solver.kind);
-    next.solver.substeps = from.solver.substeps;
-    for (size_t g = 0; g < next.groups.size(); ++g) {
-        Group& group = next.groups[g];
-        const Group& own = from.groups[g];
-        const auto found = choices.groups.find(group.name);
-        const GroupChoice choice = found == choices.groups.end() ? GroupChoice() : found->second;
-        group.count = choice.count.value_or(own.count);
-        if (group.life) group.life->capacity = std::max(group.life->capacity, group.count);
-        if (group.particle) continue;
-        group.molecule = choice.molecule.empty() ? own.molecule : readMolecule(choice.molecule);
-        Material& material = group.molecule.material;
-        material.roughness = choice.roughness.value_or(material.roughness);
-        material.translucency = choice.translucency.value_or(material.translucency);
-        material.opacity = choice.opacity.value_or(material.opacity);
-    }
-}
-
-void RunningScene::edit() {
-    try {
-        Scene next = scene;
-        next.solver.substeps = original_.solver.substeps;
-        build(std::move(next));
-    } catch (const Error&) {
-        copyEdits(accepted_, scene.groups);
-        settleParticles(scene);
-        throw;
-    }
-}
-
-void RunningScene::choose() {
-    try {
-        Scene next = scene;
-        applyChoices(next, original_);
-        build(std::move(next));
-    } catch (const Error&) {
-        choices = acceptedChoices_;
-        throw;
-    }
-}
-
 void RunningScene::switchPath(Path path) {
-    build(scene, simulation_->plan(), path);
+    build(scene_, simulation_->plan(), path);
     path_ = path;
-}
-
-bool RunningScene::edited() const {
-    return differ(original_, scene);
-}
-
-bool RunningScene::unsaved() const {
-    return text_ != saved_ || edited();
-}
-
-void RunningScene::save() {
-    const std::string onDisk = readFile(original_.file);
-    const bool changed = text_ != saved_;
-    if (changed && onDisk != saved_)
-        throw Error(Location{original_.file}, "has changed since it was read: nothing was saved");
-    const std::string edited = withEdits(changed ? text_ : onDisk, original_, scene);
-    if (edited != onDisk) writeFile(original_.file, edited);
-    text_ = saved_ = edited;
-    copyEdits(scene.groups, original_.groups);
-}
-
-void RunningScene::revert() {
-    if (text_ != saved_) {
-        const std::string onDisk = readFile(original_.file);
-        go(onDisk, undo_);
-        saved_ = onDisk;
-        return;
-    }
-    copyEdits(original_.groups, scene.groups);
-    edit();
-}
-
-std::string RunningScene::text() const {
-    return withEdits(text_, original_, scene);
-}
-
-JsonValue RunningScene::json() const {
-    return parseJson(text(), original_.file);
 }
 
 Scene RunningScene::read(const std::string& text) const {
     FieldWatch baking;
-    return parseScene(text, original_.file,
-                      {baking.baking(), request_.lenient, [this](Scene& made) { apply(request_, made); }});
+    return parseScene(text, document_.file(), {baking.baking(), request_.lenient});
 }
 
-// Builds `fresh` in its place. Without `keepsChoices` the choices give way to what it says.
-std::vector<std::string> RunningScene::replace(Scene fresh, bool keepsChoices) {
-    const Choices before = choices;
-    if (!keepsChoices) choices = {};
+// ---- Edits
+
+// Lets a capacity that a file leaves to its rates stay as it runs, so that a rate can be moved meanwhile:
+// from now on the text says it.
+void RunningScene::keepCapacities(const SceneDifference& difference, const std::vector<Group>& before,
+                                  SceneDocument::Texts& next, bool trial) {
+    JsonValue root = parseJson(next.running, document_.file());
+    bool kept = false;
+    for (const SceneDifference::Live& edit : difference.live) {
+        const Group& old = before[edit.group];
+        Group& group = scene_.groups[edit.group];
+        JsonValue& says = memberOf(root, "groups").items[edit.group];
+        const JsonValue* life = says.find("life");
+        if (!old.life || !group.life || (life && life->find("capacity"))) continue;
+        if (group.life->capacity == old.life->capacity) continue;
+        group.life->capacity = old.life->capacity;
+        setMember(memberOf(says, "life"), "capacity", toJson(old.life->capacity));
+        kept = true;
+    }
+    if (kept) next = document_.changed(root, trial);
+}
+
+// Takes what differs in what runs, as it goes on; false: that cannot be, and nothing has changed.
+bool RunningScene::takeLive(const SceneDifference& difference, SceneDocument::Texts& next,
+                            std::optional<bool> trial) {
+    if (difference.simulation || difference.picture) return false;
+    const std::vector<Group> before = scene_.groups;
     try {
-        Scene next = fresh;
-        applyChoices(next, fresh);
-        std::vector<std::string> restarted = build(std::move(next), true);
-        original_ = std::move(fresh);
-        return restarted;
+        rereadLiveKeys(next.running, scene_);
+        SceneDocument::Texts kept = next;
+        if (trial) keepCapacities(difference, before, kept, *trial);
+        if (applyLive(difference.live, before, scene_.groups, *simulation_, *renderer_)) {
+            next = std::move(kept);
+            return true;
+        }
     } catch (const Error&) {
-        choices = before;
+        scene_.groups = before;
         throw;
     }
+    scene_.groups = before;
+    return false;
 }
 
-std::vector<std::string> RunningScene::take(const std::string& text) {
-    Scene fresh = read(text);
-    const bool keepsChoices = changedChoices(fresh).empty();
-    std::vector<std::string> restarted = replace(std::move(fresh), keepsChoices);
-    text_ = text;
-    return restarted;
+// Runs what the texts say. `trial`: they are an edit, or an edit for this run alone.
+void RunningScene::follow(SceneDocument::Texts& next, std::optional<bool> trial) {
+    const SceneDifference difference =
+        differenceOf(document_.json(), parseJson(next.running, document_.file()));
+    if (takeLive(difference, next, trial)) return;
+    Scene fresh = read(next.running);
+    if (difference.simulation || !difference.live.empty()) {
+        build(std::move(fresh));
+        return;
+    }
+    fresh.solver.substeps = scene_.solver.substeps;
+    renderer_ = draws(fresh, *simulation_);
+    scene_ = std::move(fresh);
+    ++builds_;
 }
 
-// Takes a text and adds the one that it leaves behind to `passed`.
-void RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
-    std::string previous = this->text();
-    take(text);
-    passed.push_back(std::move(previous));
+void RunningScene::change(const JsonValue& after, bool trial) {
+    SceneDocument::Texts next = document_.changed(after, trial);
+    if (next != document_.texts()) {
+        follow(next, trial);
+        document_.take(std::move(next), held_);
+    }
+    held_ = false;
 }
 
-// Returns `text`, which was read as `before`, with what differs in `after`.
-static std::string withJson(const std::string& text, const JsonValue& before, const JsonValue& after) {
-    std::vector<TextChange> changes;
-    addChanges(text, before, before, after, changes);
-    return withChanges(text, std::move(changes));
+bool RunningScene::changeLive(const JsonValue& after) {
+    SceneDocument::Texts next = document_.changed(after, false);
+    if (next == document_.texts()) return true;
+    const SceneDifference difference =
+        differenceOf(document_.json(), parseJson(next.running, document_.file()));
+    if (!takeLive(difference, next, false)) return false;
+    document_.take(std::move(next), std::exchange(held_, true));
+    return true;
 }
 
-void RunningScene::change(const JsonValue& after) {
-    const std::string current = text(), next = withJson(current, parseJson(current, original_.file), after);
-    if (next == current) return;
-    go(next, undo_);
-    redo_.clear();
+void RunningScene::go(SceneDocument::Texts next) {
+    follow(next, {});
+    document_.take(std::move(next));
+}
+
+void RunningScene::undo() {
+    SceneDocument::Texts next = *document_.before();
+    follow(next, {});
+    document_.goBack();
+}
+
+void RunningScene::redo() {
+    SceneDocument::Texts next = *document_.after();
+    follow(next, {});
+    document_.goForth();
+}
+
+void RunningScene::save() {
+    if (document_.tries()) read(document_.texts().kept);  // so that no file is left that nobody can open
+    document_.save();
 }
 
 void RunningScene::add(const std::string& file) {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(scene.file).parent_path();
+    const fs::path folder = fs::absolute(document_.file()).parent_path();
     const std::string name = fs::relative(file, folder).generic_string();
     const bool molecule = fs::path(file).extension() == ".json";
-    JsonValue root = json();
+    JsonValue root = document_.json();
     const char* list = molecule ? "groups" : "models";
     const JsonValue* existing = root.find(list);
     JsonValue longer = existing ? *existing : JsonValue::makeArray();
@@ -278,83 +235,22 @@ void RunningScene::add(const std::string& file) {
     change(root);
 }
 
-void RunningScene::undo() {
-    const bool onlyEdited = edited();
-    if (!onlyEdited && undo_.empty()) return;
-    const std::string before = onlyEdited ? text_ : undo_.back();
-    go(before, redo_);
-    if (!onlyEdited) undo_.pop_back();
-}
-
-void RunningScene::redo() {
-    if (redo_.empty()) return;
-    const std::string after = redo_.back();
-    go(after, undo_);
-    redo_.pop_back();
-}
-
-// Returns the choices whose value the file changed, too.
-std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const {
-    std::vector<std::string> out;
-    if (choices.solver && theirs.solver.kind != original_.solver.kind &&
-        theirs.solver.kind != *choices.solver)
-        out.emplace_back("$.solver.method");
-    for (const auto& [name, choice] : choices.groups) {
-        const Group *before = named(original_, name), *after = named(theirs, name);
-        if (!before || !choice.any()) continue;
-        if (!after) {
-            out.push_back(concat("the group \"", name, "\""));
-            continue;
-        }
-        if (choice.count && after->count != before->count && after->count != *choice.count)
-            out.push_back(concat("count of \"", name, "\""));
-        if (!choice.molecule.empty() && after->molecule.file != before->molecule.file)
-            out.push_back(concat("molecule of \"", name, "\""));
-        const Material &previous = before->molecule.material, &current = after->molecule.material;
-        const auto look = [&, &group = name](const std::optional<double>& chosen, double old, double fresh,
-                                             const char* what) {
-            if (chosen && old != fresh && fresh != *chosen)
-                out.push_back(concat(what, " of \"", group, "\""));
-        };
-        look(choice.roughness, previous.roughness, current.roughness, "roughness");
-        look(choice.translucency, previous.translucency, current.translucency, "translucency");
-        look(choice.opacity, previous.opacity, current.opacity, "opacity");
-    }
-    return out;
-}
-
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
-    const std::string onDisk = readFile(original_.file);
-    const bool changed = onDisk != saved_;  // else another file has, which the scene names
+    const std::string onDisk = readFile(document_.file());
     Reloaded out;
-    std::string combined = text();
-    if (changed) {
-        const JsonValue theirs = parseJson(onDisk, original_.file);
-        combined = withJson(onDisk, theirs,
-                            merged(parseJson(saved_, original_.file), parseJson(combined, original_.file),
-                                   theirs, prefer.value_or(Prefer::mine), "$", out.conflicts));
-    }
-    Scene fresh = read(combined);
-    const std::vector<std::string> choicesToo = changedChoices(fresh);
-    out.conflicts.insert(out.conflicts.end(), choicesToo.begin(), choicesToo.end());
+    SceneDocument::Texts next = document_.merged(onDisk, prefer.value_or(Prefer::mine), out.conflicts);
+    Scene fresh = read(next.running);
     if (!out.conflicts.empty() && !prefer) return out;
-
-    out.restarted = replace(std::move(fresh), prefer != Prefer::theirs || choicesToo.empty());
-    if (changed) {  // the texts are of before: going back to one would take the file's change back as well
-        undo_.clear();
-        redo_.clear();
-        saved_ = text_ = onDisk;
-    }
-    if (combined != text_) undo_.push_back(text_);
-    text_ = combined;
+    out.restarted = build(std::move(fresh));
+    document_.reread(onDisk, std::move(next));
     return out;
 }
 
 std::vector<std::string> RunningScene::files() const {
-    std::vector<std::string> out = filesOf(original_.file);
-    for (const Group& group : scene.groups)
+    std::vector<std::string> out = filesOf(document_.file());
+    for (const Group& group : scene_.groups)
         if (!group.molecule.file.empty()) out.push_back(group.molecule.file);
-    for (const Model& model : scene.models)
+    for (const Model& model : scene_.models)
         out.push_back(model.file);
     out.insert(out.end(), context_->shaderFiles().begin(), context_->shaderFiles().end());
     return out;

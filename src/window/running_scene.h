@@ -1,78 +1,57 @@
-// A scene that runs in the window: as its file says, as it was changed since, and what simulates and draws
-// it.
+// A scene that runs in the window: its document, and what simulates and draws it.
 //
 // Whatever needs another simulation is built beside the one that runs and takes its place, and its state,
 // only once it is there: what cannot be had is thrown, and what ran runs on.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/file_watch.h"
-#include "core/json_edit.h"
-#include "render/renderer.h"
 #include "run/request.h"
-#include "simulate/simulation.h"
+#include "window/apply_live.h"
+#include "window/scene_document.h"
 
 namespace shoal::window {
-
-// The panel's choices in place of the scene's values. They are not saved, and stay when the file changes.
-struct GroupChoice {
-    std::optional<int> count;
-    std::string molecule;  // its file; empty: as in the scene
-    // Values of the molecule's material.
-    std::optional<double> roughness, translucency, opacity;
-    bool any() const { return count || !molecule.empty() || roughness || translucency || opacity; }
-};
-struct Choices {
-    std::map<std::string, GroupChoice> groups;        // by their names
-    std::optional<std::optional<SolverKind>> solver;  // inner nothing: auto
-};
 
 class RunningScene {
   public:
     // Error: the scene does not fit the context; the driver refuses a program.
     RunningScene(const RunRequest& request, gpu::Context& context, Loaded loaded, int width, int height);
 
-    Scene scene;      // as it is edited; what it does to the run is told by the functions below
-    Choices choices;  // the same
-    const Scene& original() const { return original_; }  // as in its file
+    const Scene& scene() const { return scene_; }  // as it runs
+    const SceneDocument& document() const { return document_; }
     Simulation& simulation() { return *simulation_; }
     const Simulation& simulation() const { return *simulation_; }
     Renderer& renderer() { return *renderer_; }
+    int builds() const { return builds_; }  // how often another simulation or renderer was made
 
-    // ---- Each of these: Error, and everything is as it was, but for edit() and choose(), which take back
-    // what cannot be had.
+    // ---- Each of these: Error, and everything is as it was.
 
-    void edit();    // `scene` was edited so that it needs another plan
-    void choose();  // `choices` were changed
-    void switchPath(Path path);
-    void save();    // into the file
-    void revert();  // to what the file says
-
-    // json() is the file as it would be saved now; change() makes the scene what another one says. Comments,
-    // order and layout of the file stay.
-    JsonValue json() const;
-    void change(const JsonValue& after);
+    // Makes the document say `after`. What cannot be taken by the run as it goes on has another simulation,
+    // which goes on from its state.
+    void change(const JsonValue& after, bool trial = false);
+    // The same, only if the run can take it as it goes on; false: it cannot, and nothing has changed. All of
+    // these up to release(), and a change() before it, are one step of undo.
+    bool changeLive(const JsonValue& after);
+    void release() { held_ = false; }
     // Adds the molecule of a file as a group, and any other file as a model.
     void add(const std::string& file);
-    // Take back what change() did, and edits of the scene since, and do it again.
-    bool mayUndo() const { return !undo_.empty() || edited(); }
-    bool mayRedo() const { return !redo_.empty(); }
+    void keepTrials() { document_.take(document_.withTrials()); }
+    void dropTrials() { go(document_.withoutTrials()); }
     void undo();
     void redo();
+    void revert() { go(document_.saved()); }  // to what the file says
+    void save();                              // into the file, without the trials
+
+    void switchPath(Path path);
     // Makes the programs again on the same path: taking another one when a program is refused would hide the
     // mistake.
-    void remakePrograms() { build(scene, simulation_->plan(), simulation_->path().path); }
+    void remakePrograms() { build(scene_, simulation_->plan(), simulation_->path().path); }
 
-    bool unsaved() const;  // differs from the file
-    // Accepts the groups as they are now: a later edit that fails goes back to them.
-    void accept() { accepted_ = scene.groups; }
-
-    // Takes over a change of the file, or of one that it names. Unsaved edits and choices are kept where the
+    // Takes over a change of the file, or of one that it names. Unsaved edits and trials are kept where the
     // file did not change the same value. Where it did, the conflicts are returned and nothing else happens,
     // unless `prefer` says who wins.
     struct Reloaded {
@@ -85,28 +64,26 @@ class RunningScene {
     std::vector<std::string> files() const;
 
   private:
-    std::string text() const;  // with what was edited in `scene`
-    bool edited() const;       // `scene` is not as text_ says
     Scene read(const std::string& text) const;
-    // These return the groups that begin anew.
-    std::vector<std::string> replace(Scene fresh, bool keepsChoices);
-    std::vector<std::string> take(const std::string& text);
-    void go(const std::string& text, std::vector<std::string>& passed);
+    void keepCapacities(const SceneDifference& difference, const std::vector<Group>& before,
+                        SceneDocument::Texts& next, bool trial);
+    bool takeLive(const SceneDifference& difference, SceneDocument::Texts& next, std::optional<bool> trial);
+    void follow(SceneDocument::Texts& next, std::optional<bool> trial);
+    void go(SceneDocument::Texts next);
+    Plan compileStably(Scene& next) const;
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
+    std::unique_ptr<Renderer> draws(const Scene& scene, Simulation& simulation) const;
+    // These return the groups that begin anew.
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);
-    std::vector<std::string> build(Scene next, bool warns = false);  // compiled; `warns`: of the plan
-    Plan compileStably(Scene& next) const;
-    void applyChoices(Scene& next, const Scene& from) const;
-    std::vector<std::string> changedChoices(const Scene& theirs) const;
+    std::vector<std::string> build(Scene next);
 
     const RunRequest& request_;
     gpu::Context* context_;
-    Scene original_;
-    std::string text_, saved_;              // that original_ was read from; of the file
-    std::vector<std::string> undo_, redo_;  // texts
-    std::vector<Group> accepted_;
-    Choices acceptedChoices_;
+    SceneDocument document_;
+    Scene scene_;
+    bool held_ = false;  // a live edit goes on
+    int builds_ = 0;
     Path path_;
     int width_, height_;  // pixels, at the start
     std::unique_ptr<Simulation> simulation_;

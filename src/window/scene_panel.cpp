@@ -3,10 +3,8 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "core/json_build.h"
@@ -41,76 +39,13 @@ glm::dvec3 rounded(const glm::dvec3& place) {
     return glm::round(place * 1e3) / 1e3;
 }
 
-// The molecules that ship and those beside the scene, as its file names them.
-std::vector<std::string> moleculesFor(const std::string& sceneFile) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(sceneFile).parent_path();
-    std::vector<std::string> out;
-    std::error_code code;
-    for (const std::string& file : shippedMolecules())
-        out.push_back(fs::relative(file, folder, code).generic_string());
-    for (const auto& entry : fs::directory_iterator(folder, code)) {
-        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
-        std::array<char, 512> start{};
-        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
-        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
-        const std::string name = entry.path().filename().string();
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
-    return out;
-}
-
-// Sliders for the looks of a group of molecules; whether the user changed them in this frame. Colours are the
-// scene's and are saved; what the molecule's file says is changed for this run only, in `choice`.
-bool drawMaterial(Group& group, GroupChoice& choice) {
-    Material& material = group.molecule.material;
-    const InstanceColors colors = instanceColors(group);
-    bool changed = false;
-    const auto color = [&](const char* name, glm::dvec3 shown, std::optional<glm::dvec3>& chosen) {
-        const Key& key = *describe(&group).find(name);
-        if (!pickColor({inWords(name).c_str(), key.says.sentence.c_str()}, {0, 1}, shown)) return;
-        chosen = shown;
-        changed = true;
-    };
-    const auto share = [&](const char* name, double& value, std::optional<double>& chosen) {
-        const Key& key = *describe(&material).find(name);
-        const std::string says =
-            key.says.sentence + " It is not saved here: the molecule's file has its own.";
-        if (!slide({name, says.c_str()}, limitOf(key), value)) return;
-        chosen = value;
-        changed = true;
-    };
-    if (!group.colorBy) {
-        color("color", colors.first, group.color);
-        color("secondColor", colors.second, group.secondColor);
-        const Key& key = *describe(&group).find("variation");
-        double variation = colors.variation;
-        if (slide({"variation", key.says.sentence.c_str()}, limitOf(key), variation)) {
-            group.variation = variation;
-            changed = true;
-        }
-    }
-    share("roughness", material.roughness, choice.roughness);
-    if (!group.molecule.triangles.empty()) share("translucency", material.translucency, choice.translucency);
-    if (material.blend != Blend::none) share("opacity", material.opacity, choice.opacity);
-    return changed;
-}
-
 }  // namespace
 
-void ScenePanel::follow(const Scene& scene) {
-    pending_ = lives_ = false;
-    held_.reset();
-    if (refused())
-        draft_->stale = true;
-    else
-        draft_.reset();
-    groups_.clear();
-    for (size_t g = 0; g < scene.groups.size(); ++g) {
-        const Group& group = scene.groups[g];
+ScenePanel::ScenePanel(const Scene& scene) : rows_([this](const std::string& key) { return words_[key]; }) {
+    rows_.opens = {"emitters"};
+    words_["molecule"] = moleculesFor(scene.file);
+    for (const Group& group : scene.groups)
         lives_ |= group.life || group.particle || group.school;
-        groups_.emplace_back().group = g;
-    }
 }
 
 ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const View& view) {
@@ -119,26 +54,65 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
     ImGui::SetNextWindowPos(ImVec2(std::max(screen.x - width - edge, edge), edge), ImGuiCond_Always);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - 2 * edge));
     ImGui::SetNextWindowCollapsed(!lives_ && !whole_ && screen.x < points(1000), ImGuiCond_Once);
-    ImGui::Begin("Groups", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-    changed_ = false;
-    Action action = drawHead(running.scene, unsaved);
+    ImGui::Begin(whole_ ? "Scene###scene" : "Groups###scene", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    Action action = drawHead(running.document(), unsaved);
+    renew(running);
     if (whole_) {
-        const Action asked = drawWhole(running, view);
+        const Action asked = drawSteps(running, view);
         if (action == Action::none) action = asked;
-    } else {
-        for (Edited& group : groups_) {
-            ImGui::PushID(int(group.group));
-            drawGroup(group, running);
-            ImGui::PopID();
-        }
     }
+    rows_.forgetPlaces();
+    const bool edited = whole_ ? rows_.draw(describe(&running.scene()), draft_->json) : drawGroups(running);
     ImGui::End();
-    if (action != Action::none || held_ || ImGui::IsAnyItemActive()) return action;
-    if (draft_ && draft_->changed) return Action::change;
-    return pending_ ? Action::rebuild : Action::none;
+    const bool moved = moveHandles(rows_.places(), view, !edited);
+    if (edited || moved) {
+        draft_->changed = true;
+        said_.clear();
+        goLive(running);
+    }
+    const bool holds = held_ || ImGui::IsAnyItemActive();
+    if (holds && !broken_.empty()) ImGui::SetTooltip("%s", broken_.c_str());
+    if (holds) return action;
+    running.release();
+    if (!std::exchange(broken_, {}).empty()) {  // what a slider cannot have it gives back
+        draft_.reset();
+        said_ = ", taken back";
+    }
+    return action == Action::none && draft() ? Action::change : action;
 }
 
-ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
+// Takes a draft of what the document says now. What is refused stays in it.
+void ScenePanel::renew(const RunningScene& running) {
+    if (draft_ && !std::exchange(stale_, false)) return;
+    stale_ = false;
+    const JsonValue current = running.document().json();
+    if (draft_ && refused()) {
+        std::vector<std::string> conflicts;
+        draft_->json = merged(draft_->base, draft_->json, current, Prefer::mine, "$", conflicts);
+        draft_->base = current;
+    } else {
+        draft_ = Draft{current, current};
+    }
+    words_["model"].clear();
+    for (const Model& model : running.scene().models)
+        words_["model"].push_back(model.name);
+    words_["group"].clear();
+    for (const Group& group : running.scene().groups)
+        words_["group"].push_back(group.name);
+    words_["of"] = words_["group"];
+}
+
+// Lets the run take the draft at once, if it can.
+void ScenePanel::goLive(RunningScene& running) {
+    broken_.clear();
+    try {
+        if (running.changeLive(draft_->json)) draft_.reset();
+    } catch (const Error& error) {
+        broken_ = error.message();
+    }
+}
+
+ScenePanel::Action ScenePanel::drawHead(const SceneDocument& document, bool unsaved) {
     Action action = Action::none;
     if (ImGui::Button("Save")) action = Action::save;
     tip("Into the scene's file (Ctrl+S).");
@@ -148,33 +122,19 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     ImGui::EndDisabled();
     tip("Back to what the file says.");
     ImGui::SameLine();
-    if (toggle("Scene", whole_)) {
-        whole_ = !whole_;
-        if (!drafted()) draft_.reset();  // groups may have been edited since
-    }
+    if (toggle("Scene", whole_)) whole_ = !whole_;
     tip("All that the scene's file says: add, copy, remove and change any of it.");
     ImGui::SameLine();
-    const std::string file = std::filesystem::path(scene.file).filename().string();
+    const std::string file = std::filesystem::path(document.file()).filename().string();
     if (unsaved)
-        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *", file.c_str());
+        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *%s", file.c_str(), said_.c_str());
     else
         ImGui::TextDisabled("%s%s", file.c_str(), said_.c_str());
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s\n%s", scene.file.c_str(), unsaved ? "Not saved yet." : "As in the file.");
+    tip(concat(document.file(), "\n", unsaved ? "Not saved yet." : "As in the file.").c_str());
     return action;
 }
 
-ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view) {
-    if (molecules_.empty()) molecules_ = moleculesFor(running.scene.file);
-    if (!draft_) {
-        const JsonValue current = running.json();
-        draft_ = Draft{current, current};
-    } else if (std::exchange(draft_->stale, false)) {
-        std::vector<std::string> conflicts;
-        const JsonValue current = running.json();
-        draft_->json = merged(draft_->base, draft_->json, current, Prefer::mine, "$", conflicts);
-        draft_->base = current;
-    }
+ScenePanel::Action ScenePanel::drawSteps(const RunningScene& running, const View& view) {
     Action action = Action::none;
     const auto button = [&](const char* label, bool may, Action asks, const char* says) {
         ImGui::BeginDisabled(!may);
@@ -186,36 +146,17 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
         button("Drop", true, Action::undo, "Takes back what cannot run as it is (Ctrl+Z).");
         ImGui::SameLine();
     }
-    button("Undo", running.mayUndo(), Action::undo, "Takes the last change back (Ctrl+Z).");
+    button("Undo", running.document().before(), Action::undo, "Takes the last change back (Ctrl+Z).");
     ImGui::SameLine();
-    button("Redo", running.mayRedo(), Action::redo, "Does it again (Ctrl+Y).");
+    button("Redo", running.document().after(), Action::redo, "Does it again (Ctrl+Y).");
     ImGui::SameLine();
     if (ImGui::Button("Keep this view")) {
-        JsonValue camera = JsonValue::makeObject();
-        if (const JsonValue* given = draft_->json.find("camera")) camera = *given;
+        JsonValue& camera = memberOf(draft_->json, "camera");
         setMember(camera, "eye", toJson(rounded(view.eye)));
         setMember(camera, "target", toJson(rounded(view.target)));
-        setMember(draft_->json, "camera", std::move(camera));
         draft_->changed = true;
     }
     tip("Makes what you see now the camera of the scene.");
-    const auto words = [&](const std::string& key) -> std::vector<std::string> {
-        if (key == "molecule") return molecules_;
-        std::vector<std::string> out;
-        if (key == "model")
-            for (const Model& model : running.scene.models)
-                out.push_back(model.name);
-        if (key == "of" || key == "group")
-            for (const Group& group : running.scene.groups)
-                out.push_back(group.name);
-        return out;
-    };
-    ImGui::PushID("whole");
-    JsonRows rows(words);
-    const bool changed = rows.draw(describe(&running.scene), draft_->json);
-    ImGui::PopID();
-    const bool moved = moveHandles(rows.places(), view, !changed);
-    draft_->changed |= changed || moved;
     return action;
 }
 
@@ -247,53 +188,29 @@ bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const V
     return moved;
 }
 
-void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
-    Scene& scene = running.scene;
-    Simulation& simulation = running.simulation();
-    Renderer& renderer = running.renderer();
-    Group& group = scene.groups[edited.group];
-    const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
-    if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
-    const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
-    bool life = false, looks = false, mass = false, school = false, material = false;
-    if (group.life) {
-        if (planGroup) drawCounts(edited, simulation, *planGroup);
-        life = drawEmitters(scene, edited.group, edited.rows);
-        if (ImGui::TreeNodeEx("Life and death", open)) {
-            life |= drawLife(scene, edited.group, edited.rows);
-            ImGui::TreePop();
-        }
+// Draws what the scene says of its groups.
+bool ScenePanel::drawGroups(RunningScene& running) {
+    JsonValue& groups = memberOf(draft_->json, "groups");
+    const Description& keys = describe(static_cast<const Group*>(nullptr));
+    const int open = groups.items.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+    bool changed = false;
+    for (size_t g = 0; g < groups.items.size(); ++g) {
+        if (!ImGui::CollapsingHeader(concat(titleOf(groups.items[g], g), "###", g).c_str(), open)) continue;
+        ImGui::PushID(int(g));
+        const std::optional<size_t> planned = planGroupOf(running.simulation().plan(), g);
+        if (planned && running.scene().groups[g].life) drawCounts(running.simulation(), *planned);
+        changed |= rows_.draw(keys, groups.items[g]);
+        ImGui::PopID();
     }
-    if (group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
-        const double before = group.particle->mass;
-        looks = drawParticles(*group.particle, group.life.has_value(), edited.rows);
-        mass = group.particle->mass != before;  // the plan has it
-        ImGui::TreePop();
-    }
-    if (group.school && ImGui::TreeNodeEx("School", open)) {
-        school = edited.rows.draw(*group.school);
-        ImGui::TreePop();
-    }
-    if (!group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
-        material = drawMaterial(group, running.choices.groups[group.name]);
-        ImGui::TreePop();
-    }
-    if (!life && !looks && !school && !material) return;
-    changed_ = true;
-    said_.clear();
-    if (material && planGroup) renderer.changeLooks(*planGroup, group);
-    if (school) pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
-    if (life) pending_ |= !planGroup || !simulation.changeLife(*planGroup, *group.life);
-    if (looks) pending_ |= mass || !planGroup || !renderer.changeParticle(*planGroup, *group.particle);
+    return changed;
 }
 
-void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planGroup) {
+void ScenePanel::drawCounts(Simulation& simulation, size_t planGroup) {
+    Counted& counted = counted_[planGroup];
     const double time = ImGui::GetTime();
-    if (edited.countedAt < 0 || time - edited.countedAt > countEvery) {
-        edited.counts = simulation.lifeCounts(planGroup);
-        edited.countedAt = time;
-    }
-    const LifeCounts& counts = edited.counts;
+    if (counted.time < 0 || time - counted.time > countEvery)
+        counted = {simulation.lifeCounts(planGroup), time};
+    const LifeCounts& counts = counted.counts;
     const std::string live =
         concat(grouped(uint64_t(counts.live)), " of ", grouped(uint64_t(counts.capacity)), " alive");
     ImGui::ProgressBar(float(counts.live) / float(std::max(1, counts.capacity)), ImVec2(-1, 0), live.c_str());

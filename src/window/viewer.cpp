@@ -71,7 +71,7 @@ class Viewer : public WindowLoop {
         open_->saveIfAsked(true);
         if (open_->unsaved())
             std::cerr << "shoal: warning: what was changed in the window was not saved in "
-                      << printable(open_->running.scene.file) << "\n";
+                      << printable(open_->running.scene().file) << "\n";
     }
 
   private:
@@ -147,8 +147,8 @@ class Viewer : public WindowLoop {
     void drawOpenScene() {
         OpenScene& open = *open_;
         if (!hidden_) {
-            wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
-                                          *open.explanations, frameSeconds(), lastFrame_);
+            wish_.panel =
+                open.panel.draw(open.controls, open.running, *open.explanations, frameSeconds(), lastFrame_);
             open.drawPicked(points(328), points(open.timeLine.open ? 90 : 12));
             if (const SavedState* state = open.timeLine.draw(points(328), points(392), open.simulation()))
                 goTo(*state);
@@ -214,7 +214,7 @@ class Viewer : public WindowLoop {
         if (open_->scenePanel.refused()) {
             open_->scenePanel.accept();
             troubles.end("change");
-        } else if (undo ? running.mayUndo() : running.mayRedo()) {
+        } else if (undo ? running.document().before() : running.document().after()) {
             change([&] { undo ? running.undo() : running.redo(); });
         }
     }
@@ -237,7 +237,6 @@ class Viewer : public WindowLoop {
             open_->scenePanel.accept();
             change([&] { running.revert(); });
         }
-        if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
         switch (wish_.panel) {
         case Panel::Action::none:
             break;
@@ -252,11 +251,17 @@ class Viewer : public WindowLoop {
             open_->follows = false;
             open_->camera.reset();
             break;
-        case Panel::Action::rebuild:
-            change([&] {
-                open_->panel.apply(running.choices);
-                running.choose();
-            });
+        case Panel::Action::tryOut:
+            change([&] { running.change(open_->panel.tried(), true); });
+            break;
+        case Panel::Action::keep:
+            change([&] { running.keepTrials(); });
+            break;
+        case Panel::Action::drop:
+            change([&] { running.dropTrials(); });
+            break;
+        case Panel::Action::write:
+            change([&] { open_->writeControls(); });
             break;
         case Panel::Action::switchPath:
             change([&] { running.switchPath(open_->panel.path); });
@@ -265,7 +270,7 @@ class Viewer : public WindowLoop {
             listScenes();
             break;
         case Panel::Action::measure:
-            open_->panel.error = methodError(open_->running.scene, open_->simulation());
+            open_->panel.error = methodError(open_->running.scene(), open_->simulation());
             std::cout << open_->panel.error << std::endl;
             break;
         }
@@ -307,8 +312,8 @@ class Viewer : public WindowLoop {
             open_ = std::move(next);
             troubles.clear();
             chooser_.open = discards_ = shownUnsaved_ = false;
-            std::cout << "opened: " << printable(open_->running.scene.file) << std::endl;
-            entitle(open_->running.scene.file, false);
+            std::cout << "opened: " << printable(open_->running.scene().file) << std::endl;
+            entitle(open_->running.scene().file, false);
         } catch (const Error& error) {
             troubles.begin("opening", error.what());
             std::cerr << "shoal: warning: not opened: " << error.what() << std::endl;
@@ -324,16 +329,15 @@ class Viewer : public WindowLoop {
         if (!changed) troubles.end("saving");
         if (!hidden_) {
             wish_.scene = open.scenePanel.draw(open.running, changed, open.view());
-            if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
         }
-        if (std::exchange(shownUnsaved_, changed) != changed) entitle(open.running.scene.file, changed);
+        if (std::exchange(shownUnsaved_, changed) != changed) entitle(open.running.scene().file, changed);
         if (asked_) askAboutUnsaved();
     }
 
     void askAboutUnsaved() {
         const Wish wanted = *asked_;
         const Answer answer =
-            askBeforeLeaving(open_->running.scene.file, wanted.close ? "close" : "open another scene");
+            askBeforeLeaving(open_->running.scene().file, wanted.close ? "close" : "open another scene");
         if (answer == Answer::none) return;
         asked_.reset();
         if (answer == Answer::stay || (answer == Answer::save && !saveScene())) return;
@@ -351,7 +355,7 @@ class Viewer : public WindowLoop {
             std::cerr << "shoal: warning: not saved: " << error.what() << "\n";
             return false;
         }
-        open_->reload.accept(open_->running.scene.file);
+        open_->reload.accept(open_->running.scene().file);
         troubles.end("saving");
         open_->scenePanel.say(", saved");
         return true;

@@ -64,10 +64,10 @@ Outcome editWhole(const std::string& file, const std::string& steps) {
     return out;
 }
 
-// In the right panel, with one group and one emitter.
+// In the right panel, with one group and one emitter, which is folded to add another.
 constexpr const char* places =
-    "rate() { drag 700 225 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
-    "addEmitter() { press 580 455; }\nabandon() { press 390 329; }\n";
+    "rate() { drag 700 423 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
+    "addEmitter() { press 580 294; press 567 312; }\nabandon() { press 390 329; }\n";
 
 }  // namespace
 

@@ -172,6 +172,7 @@ const KeyKind KeyKind::vector3 = numbersKind<3, double>(
 
 const KeyKind KeyKind::direction =
     numbersKind<3, double>({.name = "direction",
+                            .form = RowForm::direction,
                             .definition = "direction",
                             .read = readValue<glm::dvec3, getDirection>,
                             .check = checkDirection,
@@ -182,6 +183,7 @@ const KeyKind KeyKind::color =
 
 const KeyKind KeyKind::span = numbersKind<2, double>({.name = "number or [least, most]",
                                                       .tells = Tells::limits,
+                                                      .form = RowForm::span,
                                                       .freeUsual = true,
                                                       .read = readValue<glm::dvec2, getSpan>,
                                                       .check = checkSpan,
@@ -190,6 +192,7 @@ const KeyKind KeyKind::span = numbersKind<2, double>({.name = "number or [least,
 
 const KeyKind KeyKind::ends = numbersKind<2, double>({.name = "number or [first, last]",
                                                       .tells = Tells::limits,
+                                                      .form = RowForm::span,
                                                       .read = readValue<glm::dvec2, getEnds>,
                                                       .write = writeEnds,
                                                       .schema = pairSchema});

@@ -71,32 +71,6 @@ void readDrag(JsonReader& r, Group& group, void*) {
 
 constexpr const char* newbornKeys[] = {"scale", "turn", "spin", "grow", "shrink"};
 
-JsonValue writeLife(const Group& group, const void* context) {
-    if (!group.life) return {};
-    Lifecycle life = *group.life;
-    const Lifecycle usual;
-    if (life.emitters.empty()) life.allocator = usual.allocator;
-    JsonValue out = describe(&life).write(life, context);
-    std::erase_if(out.members, [&](const JsonMember& member) {
-        if (member.first == "capacity") return usualCapacity(group.count, life) == life.capacity;
-        return group.particle && std::find(std::begin(newbornKeys), std::end(newbornKeys), member.first) !=
-                                     std::end(newbornKeys);
-    });
-    // without either key there would be no life
-    const bool emits = !life.emitters.empty() || group.count == 0;
-    return out.members.empty() && emits ? JsonValue() : out;
-}
-
-JsonValue writeEmitters(const Group& group, const void* context) {
-    if (!group.life) return {};
-    const std::vector<Emitter>& emitters = group.life->emitters;
-    if (emitters.empty() && group.count > 0) return {};  // else the reader asks for a "place"
-    JsonValue out = JsonValue::makeArray();
-    for (const Emitter& emitter : emitters)
-        out.items.push_back(describe(&emitter).write(emitter, context));
-    return out;
-}
-
 std::vector<Emitter>& emittersOf(Group& group) {
     if (!group.life) group.life.emplace();
     return group.life->emitters;
@@ -205,10 +179,8 @@ const Description& describe(const Group*) {
             .unlessZero()
             .usually("all places of a grid or list, else required")
             .key("life", &G::life, {"", "Birth and death."})
-            .writes(writeLife)
             .list<emittersOf, lookAtEmitters>("emitters",
                                               "What molecules or particles of the group are born from.")
-            .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
             .byHand("drag", {.value = Form::Value::numberOrKeys, .range = Range::atLeast(0), .usual = 0},
                     {"number of at least 0, 1/s; or an object",

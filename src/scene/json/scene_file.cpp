@@ -95,6 +95,35 @@ Scene parseScene(const std::string& text, const std::string& file, const SceneOp
     return scene;
 }
 
+static void rereadLiveKeys(JsonReader& reader, SceneReading& reading, Group& group) {
+    Group fresh;
+    fresh.count = group.count;
+    describe(&fresh).readSome(liveKeys, reader, fresh, &reading);
+    deriveLife(fresh, reader);
+    group.particle = std::move(fresh.particle);
+    group.color = fresh.color;
+    group.secondColor = fresh.secondColor;
+    group.variation = fresh.variation;
+    group.school = std::move(fresh.school);
+    group.life = std::move(fresh.life);
+    if (group.particle) group.molecule = moleculeOf(*group.particle);
+}
+
+void rereadLiveKeys(const std::string& text, Scene& scene) {
+    const JsonValue root = parseJson(text, scene.file);
+    refuseHugeNumbers(root, scene.file);
+    std::vector<Warning> warnings;
+    SceneReading reading{scene.models, warnings};
+    const JsonValue& groups = *root.find("groups");
+    EXPECTS(groups.items.size() == scene.groups.size());
+    for (size_t g = 0; g < scene.groups.size(); ++g) {
+        JsonReader reader(groups.items[g], scene.file, concat("$.groups[", g, "]"));
+        rereadLiveKeys(reader, reading, scene.groups[g]);
+    }
+    const JsonReader whole(root, scene.file);
+    describe(&scene).check(scene, Where(whole), largestNumber);
+}
+
 void checkScene(const Scene& scene) {
     describe(&scene).check(scene, Where(), largestNumber);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,13 @@ struct SceneOptions {
 // Distance fields are baked here, or taken from where they are kept.
 Scene readScene(const std::string& file, const SceneOptions& options = {});
 Scene parseScene(const std::string& text, const std::string& file, const SceneOptions& options = {});
+
+// The keys of a group that a run may take while it goes on.
+inline constexpr std::initializer_list<const char*> liveKeys = {
+    "particle", "color", "secondColor", "variation", "school", "life", "emitters"};
+// Reads these keys of all groups anew from the text of a scene file, which differs in them alone from what
+// the scene was read from. No model, molecule or field is read. Error: the reader's.
+void rereadLiveKeys(const std::string& text, Scene& scene);
 
 // The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
 // of what is wrong and no file. What only files say (which keys go together) is not asked.

@@ -11,7 +11,6 @@
 #include "window/edit_widgets.h"
 #include "window/editor/editor.h"
 #include "window/interface.h"
-#include "window/key_rows.h"
 
 namespace shoal::window {
 

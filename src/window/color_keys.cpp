@@ -1,13 +1,17 @@
+#include "window/color_keys.h"
+
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
+#include "core/description.h"
+#include "core/json_build.h"
+#include "scene/particle.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
-#include "window/panel.h"
+#include "window/scene_document.h"
 
 namespace shoal::window {
 
@@ -32,9 +36,26 @@ glm::dvec4 colorAt(const std::vector<ColorKey>& keys, double age) {
     return value(keys.back());
 }
 
-// A life from birth to death as a bar, over dark and light, with a mark at each keyframe.
-void drawBar(const std::vector<ColorKey>& keys) {
+// None where they cannot be read as they are.
+std::vector<ColorKey> keysOf(const JsonValue& colors) {
+    std::vector<ColorKey> out(colors.items.size());
+    try {
+        for (size_t i = 0; i < out.size(); ++i) {
+            JsonReader reader(colors.items[i], "");
+            describe(&out[i]).read(reader, out[i]);
+        }
+    } catch (const Error&) {
+        out.clear();
+    }
+    return out;
+}
+
+}  // namespace
+
+void drawColorBar(const JsonValue& colors) {
     constexpr int steps = 48;
+    const std::vector<ColorKey> keys = keysOf(colors);
+    if (keys.empty()) return;
     const float width = ImGui::GetContentRegionAvail().x, height = points(18), mark = points(4);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -57,49 +78,24 @@ void drawBar(const std::vector<ColorKey>& keys) {
     tip("Colour and opacity from birth to death, over black and over grey.");
 }
 
-bool drawImage(ParticleImage& image, KeyRows& rows) {
-    const std::string file = std::filesystem::path(image.file).filename().string();
-    beginRow(rowOf(*describe(static_cast<const ParticleType*>(nullptr)).find("image")));
-    ImGui::TextUnformatted(concat(file, ", tiles ", image.firstTile, " to ", image.lastTile).c_str());
-    // with other tiles the pixels would be read anew
-    return rows.draw(image, {{"columns", {}}, {"rows", {}}});
+void addColorKey(JsonValue& colors) {
+    const std::vector<ColorKey> before = keysOf(colors);
+    std::vector<ColorKey> keys = before;
+    if (keys.empty()) keys.resize(1);
+    shoal::addColorKey(keys);
+    size_t added = 0;
+    while (added < before.size() && keys[added].age == before[added].age)
+        ++added;
+    if (keys.size() == before.size()) return;
+    colors.items.insert(colors.items.begin() + std::ptrdiff_t(added),
+                        object(key("age", keys[added].age), key("color", keys[added].color),
+                               key("opacity", keys[added].opacity)));
 }
 
-// Keyframes as rows below a bar that shows them.
-bool drawColors(std::vector<ColorKey>& keys, KeyRows& rows) {
-    bool changed = false;
-    drawBar(keys);
-    for (size_t k = 0; k < keys.size(); ++k) {
-        ImGui::PushID(int(k));
-        const auto age = [&] {
-            double share = keys[k].age;
-            const Key& key = *describe(&keys[k]).find("age");
-            const Row row{key.name.c_str(), key.says.sentence.c_str(), "%.0f %%", false, 100};
-            if (keys.size() == 1 || !slide(row, limitOf(key), share)) return false;
-            keys[k].age = ageBetween(keys, k, share);
-            return true;
-        };
-        changed |= rows.draw(keys[k], {{"age", age}});
-        if (keys.size() > 1 && ImGui::SmallButton("Remove this keyframe")) {
-            keys.erase(keys.begin() + std::ptrdiff_t(k--));
-            changed = true;
-        }
-        ImGui::PopID();
-    }
-    if (keys.size() < mostColorKeys && ImGui::SmallButton("Add a keyframe")) {
-        addColorKey(keys);
-        changed = true;
-    }
-    return changed;
-}
-
-}  // namespace
-
-bool drawParticles(ParticleType& type, bool ages, KeyRows& rows) {
-    KeyRows::Owns owns = {{"colors", [&] { return drawColors(type.colors, rows); }},
-                          {"image", [&] { return type.image && drawImage(*type.image, rows); }}};
-    if (!ages) owns["growth"] = {};
-    return rows.draw(type, owns);
+void keepAge(JsonValue& colors, size_t index) {
+    const std::vector<ColorKey> keys = keysOf(colors);
+    if (keys.empty() || !colors.items[index].find("age")) return;
+    setMember(colors.items[index], "age", toJson(ageBetween(keys, index, keys[index].age)));
 }
 
 }  // namespace shoal::window
