@@ -13,13 +13,16 @@ namespace {
 constexpr double firstTolerance = 1e-5;  // of the reference, until errors come nearer
 constexpr double shareOfError = 0.01;    // of the smallest error: the reference's
 
+// By which share of the time that is given a stage ends.
+constexpr double byProbes = 0.2, byExtra = 0.3, byReference = 0.65, byErrors = 0.8;
+
 // One method: its few molecules for the error, its many for the time.
 struct Curve {
     Method method;
     std::unique_ptr<MethodRunner> few, many;
     FrameCost fewCost, manyCost;
     double fewStep = 0, manyStep = 0;  // s, that setting another step takes
-    std::string refused;               // at every step
+    std::string refused;               // why: at every step, or there was no time to make it ready
     std::vector<AccuracyPoint> points;
     std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
     double best = 1e30;                       // smallest error
@@ -44,8 +47,11 @@ class Sweep {
     }
 
     AccuracyReport run() {
-        for (Curve& curve : curves()) {
-            probe(curve);
+        for (Curve* curve : curves()) {
+            if (reference_ && limit_.over(byProbes))
+                leaveOut(*curve);
+            else
+                probe(*curve);
             tell(0);
         }
         if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
@@ -54,10 +60,14 @@ class Sweep {
         estimate();
         stage("calibration", expectedOfExtra_);
         std::vector<std::pair<Method, Step>> extras;
-        if (options_.extra) extras = options_.extra();
-        stage("reference", reference_->secondsToSolve());
+        if (options_.extra) {
+            std::optional<double> most;
+            if (options_.seconds) most = limit_.left(byExtra);
+            extras = options_.extra(most);
+            if (limit_.over(byExtra)) cut_.push_back("the choice of a method ended early");
+        }
+        stage("reference", secondsOfReference());
         solveReference();
-        measuring_ = Clock::now();
         stage("errors", 0);
         tellWhatIsLeft();
         for (const Step& step : ladder_)
@@ -66,16 +76,16 @@ class Sweep {
         for (const auto& [method, step] : extras)
             extra(method, step);
         stage("reference", 0);
-        const Clock::time_point tightening = Clock::now();
         tighten();
-        measuring_ += Clock::now() - tightening;
         stage("times", 0);
         time();
         return finish();
     }
 
   private:
-    std::vector<Curve>& curves() {
+    // Returns all in the order in which they are made ready: every solver once before any twice, those of
+    // second order and more first, which get there soonest.
+    std::vector<Curve*> curves() {
         std::vector<SolverKind> kinds = options_.solvers;
         if (kinds.empty())
             for (const Solver& solver : solvers())
@@ -88,7 +98,23 @@ class Sweep {
                 curve.method = {kind, sampling};
             }
         }
-        return curves_;
+        std::vector<Curve*> out;
+        for (Curve& curve : curves_)
+            out.push_back(&curve);
+        const auto turn = [&](const Curve* curve) {
+            return std::pair(curve->method.sampling != samplings.front(),
+                             solver(curve->method.solver).order <= 1);
+        };
+        std::stable_sort(out.begin(), out.end(),
+                         [&](const Curve* a, const Curve* b) { return turn(a) < turn(b); });
+        return out;
+    }
+
+    void leaveOut(Curve& curve) {
+        curve.refused = "there was no time to make it ready";
+        add(curve, ladder_.front()).why = curve.refused;
+        curve.done = true;
+        ++unready_;
     }
 
     // Compiles the method and looks at what a frame costs.
@@ -150,18 +176,19 @@ class Sweep {
     }
 
     void estimate() {
-        double sweep = secondsOfErrors() + secondsOfTimes();
-        if (options_.extra) expectedOfExtra_ = reference_->secondsToSolve(3) + 0.1 * secondsOfErrors();
-        if (options_.seconds) sweep = std::min(sweep, *options_.seconds);
-        expected_ = sweep + expectedOfExtra_ + reference_->secondsToSolve();
+        const double sweep = secondsOfErrors() + secondsOfTimes();
+        if (options_.extra)
+            expectedOfExtra_ =
+                std::min(reference_->secondsToSolve(3) + 0.1 * secondsOfErrors(), limit_.left(byExtra));
+        expected_ = std::min(sweep + expectedOfExtra_ + reference_->secondsToSolve(), limit_.left());
         progress_.estimate(expected_);
     }
 
     // Reports the seconds of the rest, and the share of all errors and times that fits into them.
     void tellWhatIsLeft() {
         const double all = secondsOfErrors() + secondsOfTimes();
-        progress_.left(options_.seconds ? std::min(all, *options_.seconds) : all,
-                       options_.seconds ? *options_.seconds / all : 1);
+        const double left = std::min(all, limit_.left());
+        progress_.left(left, left / all);
     }
 
     // Ends the stage before, whatever it took, as what it was expected to take.
@@ -172,9 +199,17 @@ class Sweep {
     }
 
     void solveReference() {
-        settled_ = reference_->solve(firstTolerance);
+        settled_ = reference_->solve(firstTolerance, reference_->secondsEach(limit_.left(byReference)));
+        if (settled_ != Settled::yes && limit_.over(byReference)) cut_.push_back("the reference ended early");
         if (settled_ == Settled::chaotic) out_.chaotic = reference_->why();
-        if (settled_ == Settled::tooStiff) out_.tooStiff = reference_->why();
+        if (settled_ != Settled::tooStiff) return;
+        out_.tooStiff = reference_->why();
+        if (limit_.over(byReference))
+            out_.tooStiff = concat("--seconds leaves too little time: ", out_.tooStiff);
+    }
+
+    double secondsOfReference() const {
+        return std::min(reference_->secondsToSolve(), limit_.left(byReference));
     }
 
     double secondsOf(const Curve& curve, const Step& step) const {
@@ -222,10 +257,11 @@ class Sweep {
         const std::string refusal = curve.few->refusal(step);
         if (!refusal.empty()) return refuse(curve, step, refusal);
         const double seconds = secondsOf(curve, step);
-        if (options_.seconds && measured() + seconds > shareOfErrors * *options_.seconds) {
+        if (measured_ > 0 && seconds > limit_.left(byErrors)) {
             AccuracyPoint& point = add(curve, step);
             point.why = concat("this and what is finer would take ", seconds, " s and more");
             curve.done = true;
+            ++endedEarly_;
             return;
         }
         measure(curve, step);
@@ -235,6 +271,7 @@ class Sweep {
     void measure(Curve& curve, const Step& step) {
         AccuracyPoint& point = add(curve, step);
         curve.few->set(step);
+        ++measured_;
         if (!out_.hasErrors()) {
             point.outcome = Outcome::measured;
             return;
@@ -280,7 +317,9 @@ class Sweep {
             smallest = std::min(smallest, curve.best);
         // what ran out of time once would do so again
         const bool near = reference_->error() <= shareOfError * smallest;
-        if (!near && settled_ == Settled::yes) settled_ = reference_->solve(shareOfError * smallest);
+        if (!near && settled_ == Settled::yes)
+            settled_ =
+                reference_->solve(shareOfError * smallest, reference_->secondsEach(limit_.left(byErrors)));
         if (!near && settled_ != Settled::yes)
             out_.notes.push_back(concat(
                 "errors below ", formatted("%.1e", reference_->error() / shareOfError),
@@ -306,7 +345,7 @@ class Sweep {
             }
         }
         std::optional<double> left;
-        if (options_.seconds) left = std::max(0.2, *options_.seconds - measured());
+        if (options_.seconds) left = limit_.left();
         const double before = done_;
         const std::vector<Spread> times = timeInTurn(contenders, left, [&](double seconds) {
             done_ = before + seconds;
@@ -321,12 +360,22 @@ class Sweep {
             points[i]->stateBytes = contenders[i].runner->simulation().stateBytes();
         }
         if (without > 0)
-            out_.notes.push_back(concat(without, " of ", points.size(),
-                                        " points were not timed, the dearest ones: --seconds ",
-                                        *options_.seconds, " is too short"));
+            cut_.push_back(concat(without, " of ", points.size(), " points, the dearest, were not timed"));
+    }
+
+    void tellWhatWasCut() {
+        if (unready_ > 0)
+            cut_.insert(cut_.begin(), concat(unready_, " of ", curves_.size(), " methods were not tried"));
+        if (endedEarly_ > 0)
+            cut_.push_back(
+                concat("finer steps of ", many(endedEarly_, "method", "methods"), " were not tried"));
+        if (!cut_.empty())
+            out_.notes.push_back(
+                concat("--seconds ", *options_.seconds, " is too short for all of it: ", joined(cut_, ", ")));
     }
 
     AccuracyReport finish() {
+        tellWhatWasCut();
         for (Curve& curve : curves_) {
             std::stable_sort(curve.points.begin(), curve.points.end(),
                              [](const AccuracyPoint& a, const AccuracyPoint& b) {
@@ -340,14 +389,11 @@ class Sweep {
         return std::move(out_);
     }
 
-    double measured() const { return secondsSince(measuring_); }
     double shareDone() const { return std::min(1.0, done_ / std::max(expected_, 1e-9)); }
     void tell(double seconds) {
         done_ += seconds;
         progress_.tell(shareDone());
     }
-
-    static constexpr double shareOfErrors = 0.6;  // of the time that is given
 
     const AccuracyOptions& options_;
     const AccuracyDevice& device_;
@@ -358,10 +404,14 @@ class Sweep {
     std::vector<Curve> curves_;
     std::unique_ptr<ExactEnds> reference_;
     AccuracyReport out_;
-    Settled settled_ = Settled::yes;                      // the reference
-    double expected_ = 0, done_ = 0;                      // s
-    double expectedOfExtra_ = 0, expectedOfStage_ = 0;    // s
-    Clock::time_point start_ = Clock::now(), measuring_;  // measuring_: programs and reference are there
+    Settled settled_ = Settled::yes;                    // the reference
+    double expected_ = 0, done_ = 0;                    // s
+    double expectedOfExtra_ = 0, expectedOfStage_ = 0;  // s
+    int unready_ = 0, endedEarly_ = 0;                  // curves
+    int measured_ = 0;                                  // points
+    std::vector<std::string> cut_;                      // for want of time
+    Clock::time_point start_ = Clock::now();
+    TimeLimit limit_{options_.seconds};
 };
 
 }  // namespace
@@ -379,18 +429,6 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
     });
     if (!dragged || !varies) return {FieldSampling::vertexSubstep};
     return {std::begin(allSamplings), std::end(allSamplings)};
-}
-
-std::vector<Step> stepLadder(int mostSplits) {
-    std::vector<Step> out;
-    for (int steps = 1; steps <= maxSubsteps * mostSplits; steps *= 2) {
-        Step step;
-        while (steps / step.split > maxSubsteps)
-            step.split *= 2;
-        step.substeps = steps / step.split;
-        out.push_back(step);
-    }
-    return out;
 }
 
 AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,

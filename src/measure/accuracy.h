@@ -45,14 +45,15 @@ struct AccuracyOptions {
     int timedMolecules = 16384;                 // of each group, at most
     std::vector<SolverKind> solvers = {};       // empty: all
     std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
-    std::optional<double> seconds = {};         // of errors and times, at most, beside the first compiling,
-                                                // `extra` and the reference; nothing: as long as it takes
+    std::optional<double> seconds = {};         // of all of it, about; nothing: as long as it takes. At least
+                                                // the cheapest step of a method is measured and timed
     // Frames are made shorter than the scene's, down to this share, while a method's smallest error is above
     // `enough` at the most substeps that a frame may have.
     int mostSplits = 16;
     double enough = 1e-3;
-    // Asked for after the estimate: points beside the ladder, such as what a calibration chooses.
-    std::function<std::vector<std::pair<Method, Step>>()> extra = {};
+    // Asked for after the estimate: points beside the ladder, such as what a calibration chooses, in at most
+    // so many seconds.
+    std::function<std::vector<std::pair<Method, Step>>(std::optional<double> seconds)> extra = {};
 };
 
 // A group as it was measured.

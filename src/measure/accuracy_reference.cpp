@@ -122,6 +122,11 @@ double ExactEnds::secondsToSolve(double secondsAMolecule) const {
     return out / std::min(cores_, std::max(1, molecules()));
 }
 
+double ExactEnds::secondsEach(double seconds, double most) const {
+    const int turns = (molecules() + cores_ - 1) / cores_;
+    return std::min(most, seconds / std::max(1, turns));
+}
+
 std::string ExactEnds::nameOf(const ExactMolecule& molecule) const {
     return concat("molecule ", molecule.index, " of \"", names_[molecule.group], "\"");
 }

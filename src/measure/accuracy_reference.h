@@ -59,6 +59,8 @@ class ExactEnds {
     // worst molecule decides the result, and why() names it. Where that is chaotic or too stiff, the earlier
     // solution stays; where it is solved roughly, the more accurate of the two.
     Settled solve(double tolerance, double secondsAMolecule = usualSeconds);
+    // How long each molecule may take if all together may take so many seconds.
+    double secondsEach(double seconds, double most = usualSeconds) const;
     const std::string& why() const { return why_; }
     double error() const { return error_; }  // of what is there: a bound
 

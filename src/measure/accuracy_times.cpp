@@ -1,7 +1,6 @@
 #include "measure/method_runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace shoal::measure {
@@ -51,7 +50,7 @@ std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<do
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cost[a] < cost[b]; });
     double sum = 0;
     for (const size_t i : order)
-        out[i] = (sum += cost[i]) <= *seconds;
+        out[i] = (sum += cost[i]) <= *seconds || i == order.front();
     return out;
 }
 
@@ -63,9 +62,11 @@ void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
     schedule.mostSamples = mostSamples;
     const double start = clock();
     std::vector<double> dearest = cost;
+    bool first = true;
     const auto visitInTime = [&](size_t i) {
         const double before = clock();
-        if (seconds && before - start + dearest[i] > *seconds) return;
+        if (seconds && !first && before - start + dearest[i] > *seconds) return;
+        first = false;
         visit(i);
         dearest[i] = std::max(dearest[i], clock() - before);
     };
@@ -95,8 +96,7 @@ std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::op
     std::sort(cost.begin(), cost.end());
     std::vector<std::vector<double>> samples(contenders.size());
     double done = 0;
-    const auto clock = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
-    visitInTurn(cost, seconds, clock, [&](size_t i) {
+    visitInTurn(cost, seconds, steadySeconds, [&](size_t i) {
         samples[places[i]].push_back(sample(contenders[places[i]]));
         tell(done += cost[i]);
     });

@@ -60,7 +60,7 @@ class Search {
         return conclude();
     }
     // Whether more than this share of the time is over.
-    bool late(double share = 1) const { return secondsSince(start_) > share * options_.seconds; }
+    bool late(double share = 1) const { return limit_.over(share); }
 
   private:
     void tell(const std::string& what) const {
@@ -123,22 +123,23 @@ class Search {
             reference_ =
                 std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
                                             frames_ / few_.frameRate, device_.cores, options_.molecules);
-            const double left = std::max(0.0, readying * options_.seconds - secondsSince(start_));
-            const double each = 0.5 * left * device_.cores / std::max(1, reference_->molecules());
-            const Settled settled =
-                reference_->solve(0.01 * options_.error, std::min(MoleculeSample::referenceSeconds, each));
+            const Settled settled = reference_->solve(
+                0.01 * options_.error,
+                reference_->secondsEach(0.5 * limit_.left(readying), MoleculeSample::referenceSeconds));
             if (settled == Settled::yes ||
                 (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error))
                 break;
-            if (frames_ == least || late(readying))
-                throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
+            if (frames_ == least || late(readying)) refuseWithoutReference(settled);
         }
         tell(concat("solving a sample of ", sampleMolecules, " molecules"));
-        const auto until = start_ + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(readying * options_.seconds));
-        sample_ =
-            std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_, until);
+        sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_,
+                                                   limit_.part(readying));
         sample_->settle();
+    }
+
+    [[noreturn]] void refuseWithoutReference(Settled settled) const {
+        if (settled != Settled::chaotic && late(readying)) refuseForTime(nullptr);
+        throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
     }
 
     std::string noReference(Settled settled) const {
@@ -339,7 +340,7 @@ class Search {
         }
         out.why = others > 0 ? concat("the cheapest of ", others + 1, " that get there")
                              : "the only one that gets there, or the first that nothing else can beat";
-        if (late()) out.why += concat("; the search ended after ", options_.seconds, " s");
+        if (late()) out.why += concat("; the search ended after ", *options_.seconds, " s");
         out.duration = frames_ / few_.frameRate;
         if (out.duration < 0.9 * options_.duration)
             out.why += concat("; over ", out.duration, " s only: over more there is no reference");
@@ -347,16 +348,19 @@ class Search {
         return out;
     }
 
+    [[noreturn]] void refuseForTime(const Candidate* nearest) const {
+        std::string found;
+        if (nearest != nullptr)
+            found = concat("; the nearest by then is ", name(nearest->method.solver), " with ",
+                           nearest->substeps, " substeps a frame and ", *nearest->error);
+        throw Error(Location{few_.file, 0, 0, {}},
+                    concat("--error ", options_.error, ": no method was found to hold it in ",
+                           *options_.seconds, " s: give it more time with ", options_.limitOption, found));
+    }
+
     [[noreturn]] void refuse(const Candidate* nearest) const {
         const Location place{few_.file, 0, 0, {}};
-        if (late())
-            throw Error(
-                place,
-                concat("--error ", options_.error, ": no method was found to hold it in ", options_.seconds,
-                       " s: give it more time with --error-seconds",
-                       nearest ? concat("; the nearest by then is ", name(nearest->method.solver), " with ",
-                                        nearest->substeps, " substeps a frame and ", *nearest->error)
-                               : ""));
+        if (late()) refuseForTime(nearest);
         if (nearest == nullptr)
             throw Error(place, concat("--error ", options_.error, ": no method can run this scene: ",
                                       runs_.empty() ? "none is left" : runs_.front().candidate.why));
@@ -370,7 +374,7 @@ class Search {
 
     const CalibrationOptions& options_;
     const AccuracyDevice& device_;
-    const Clock::time_point start_ = Clock::now();
+    const TimeLimit limit_{options_.seconds};
     Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
     std::unique_ptr<ExactEnds> reference_;

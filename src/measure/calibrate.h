@@ -46,7 +46,8 @@ struct CalibrationOptions {
     std::optional<int> substeps = {};
     double duration = 1;  // s of simulated time; less where there is no reference then, to an eighth
     int molecules = 4;    // of each group, with the reference
-    double seconds = 60;  // of the search, about: then the best that was found is taken
+    std::optional<double> seconds = 60;  // of the search, about: then the best that was found is taken
+    std::string limitOption = "--error-seconds";        // where users give more of them
     std::function<void(const std::string&)> tell = {};  // what is done next, when that changes
     std::string version;                                // of the program
     std::string processor;    // its name: renderers that draw in software go by one name on all
@@ -108,9 +109,9 @@ class MoleculeSample {
     static constexpr double referenceSeconds = 3;  // a molecule
 
     // `error`: what is wanted; `core`: of the first molecules of the scene's groups. Borrows all of them.
-    // `until`: what is not settled then stays so.
+    // `limit`: what is not settled by then stays so.
     MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
-                   const AccuracyDevice& device, Clock::time_point until);
+                   const AccuracyDevice& device, TimeLimit limit);
 
     // Finds the method that the others are held against. What it does not settle has the reference, as far as
     // time allows.
@@ -142,7 +143,7 @@ class MoleculeSample {
     int frames_;
     const ExactEnds& core_;
     const AccuracyDevice& device_;
-    Clock::time_point until_;
+    TimeLimit limit_;
     std::unique_ptr<MethodRunner> runner_;  // whose plan and starts the references are of
     std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
     std::string by_;

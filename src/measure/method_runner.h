@@ -103,11 +103,12 @@ double secondsOfVisit(const Contender& contender);
 // Estimates the seconds of all samples: the least number of each, and more while they fit into half a minute.
 double leastSeconds(const std::vector<Contender>& contenders);
 
-// Flags the contenders that fit when each takes its seconds, cheapest first. Nothing bounds them: all.
+// Flags the contenders that fit when each takes its seconds, cheapest first: that always does. Nothing bounds
+// them: all.
 std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<double> seconds);
 
 // Visits in turn, round after round; `visit(i)` is left out where it would end after `seconds`, by `clock`
-// (s) and by the dearest of its own visits before.
+// (s) and by the dearest of its own visits before. The very first one is not.
 void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
                  const std::function<double()>& clock, const std::function<void(size_t)>& visit);
 

@@ -6,6 +6,18 @@
 
 namespace shoal::measure {
 
+std::vector<Step> stepLadder(int mostSplits) {
+    std::vector<Step> out;
+    for (int steps = 1; steps <= maxSubsteps * mostSplits; steps *= 2) {
+        Step step;
+        while (steps / step.split > maxSubsteps)
+            step.split *= 2;
+        step.substeps = steps / step.split;
+        out.push_back(step);
+    }
+    return out;
+}
+
 std::vector<size_t> paretoFront(const std::vector<std::pair<double, double>>& timeAndError) {
     std::vector<size_t> order(timeAndError.size()), out;
     std::iota(order.begin(), order.end(), size_t(0));

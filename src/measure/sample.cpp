@@ -20,8 +20,8 @@ bool SampleError::holds(double error) const {
 }
 
 MoleculeSample::MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
-                               const AccuracyDevice& device, Clock::time_point until)
-    : scene_(scene), error_(error), frames_(frames), core_(core), device_(device), until_(until) {}
+                               const AccuracyDevice& device, TimeLimit limit)
+    : scene_(scene), error_(error), frames_(frames), core_(core), device_(device), limit_(std::move(limit)) {}
 
 std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
                                               const std::vector<Snapshot>& b) const {
@@ -46,7 +46,7 @@ bool MoleculeSample::settled() const {
 void MoleculeSample::settle() {
     // another method where one does not settle them: what is stiff stays to the implicit ones
     for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd})
-        if (settleBy(kind) || Clock::now() > until_) break;
+        if (settleBy(kind) || limit_.over()) break;
     for (SampledMolecule& molecule : molecules_)
         if (!told(molecule)) ask(molecule);
 }
@@ -112,20 +112,20 @@ bool MoleculeSample::settleBy(SolverKind kind) {
                 [&](const SampledMolecule& molecule) { return molecule.change > nearEnough * error_; });
             if (100 * rough <= int(molecules_.size())) return true;
         }
-        if (2 * seconds > std::min(secondsARun, -secondsSince(until_))) break;
+        if (2 * seconds > std::min(secondsARun, limit_.left())) break;
         coarse = fine;
     }
     return settled();
 }
 
 void MoleculeSample::ask(SampledMolecule& molecule) {
-    if (molecule.given || asked_ >= mostAsked || Clock::now() > until_) return;
+    if (molecule.given || asked_ >= mostAsked || limit_.over()) return;
     molecule.given = true;
     ++asked_;
     const std::vector<std::pair<size_t, int>> which = {{molecule.group, molecule.index}};
     auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
                                            frames_ / scene_.frameRate, device_.cores, which);
-    const Settled settled = own->solve(0.01 * error_, referenceSeconds);
+    const Settled settled = own->solve(0.01 * error_, std::min(referenceSeconds, limit_.left()));
     if (settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_)) {
         molecule.own = std::move(own);
         molecule.change = 0;

@@ -19,6 +19,24 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+double steadySeconds() {
+    return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+TimeLimit::TimeLimit(std::optional<double> seconds, std::function<double()> clock)
+    : seconds_(seconds), clock_(std::move(clock)), start_(clock_()) {}
+
+double TimeLimit::left(double share) const {
+    if (!seconds_) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, share * *seconds_ - (clock_() - start_));
+}
+
+TimeLimit TimeLimit::part(double share) const {
+    TimeLimit out = *this;
+    if (out.seconds_) *out.seconds_ *= share;
+    return out;
+}
+
 Spread spreadOf(std::vector<double> values) {
     if (values.empty()) return {};
     std::sort(values.begin(), values.end());

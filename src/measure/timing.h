@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,33 @@ namespace shoal::measure {
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start);
+double steadySeconds();  // of the clock
 template <typename Work>
 double secondsOf(const Work& work) {
     const Clock::time_point start = Clock::now();
     work();
     return secondsSince(start);
 }
+
+// The time that a whole measurement may take. Its stages end at growing shares of it, so that what an early
+// one does not need is left to the later ones.
+class TimeLimit {
+  public:
+    // Nothing: there is no limit. `clock`: s.
+    explicit TimeLimit(std::optional<double> seconds, std::function<double()> clock = steadySeconds);
+
+    // s until so much of it is over, at least 0; infinity without a limit.
+    double left(double share = 1) const;
+    bool over(double share = 1) const { return left(share) <= 0; }
+    // Likewise, with less time from the same start.
+    TimeLimit part(double share) const;
+    const std::optional<double>& seconds() const { return seconds_; }
+
+  private:
+    std::optional<double> seconds_;
+    std::function<double()> clock_;
+    double start_;
+};
 
 struct Spread {
     double min = 0, median = 0;  // of the values; 0 without any

@@ -172,9 +172,8 @@ TEST_CASE("what is too stiff for a reference has times, and no errors", "[cli]")
   "groups": [{"molecule": "quad.json", "count": 4, "spin": [3, -4, 2],
     "place": {"on": "volume", "box": {"low": [-1, 0, -1], "high": [1, 1, 1]}}}]
 })");
-    const Outcome outcome =
-        runShoal({"measure", scene, "--solvers", "bdf2-xpbd", "--seconds", "1", "--molecules", "1", "--json"},
-                 cacheIn(scratch));
+    const Outcome outcome = runShoal(
+        {"measure", scene, "--solvers", "bdf2-xpbd", "--molecules", "1", "--json"}, cacheIn(scratch));
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     const JsonValue report = outcome.json();
@@ -186,6 +185,31 @@ TEST_CASE("what is too stiff for a reference has times, and no errors", "[cli]")
     CHECK(member(first, "samples").number > 0);
     refusal({"explain", scene, "--error", "1e-3", "--solver", "bdf2-xpbd"},
             "too stiff for a reference in 3 s", cacheIn(scratch));
+}
+
+TEST_CASE("measure with next to no time measures one method, and says in one sentence what it left out",
+          "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    const Outcome outcome =
+        runShoal(quick(scene, {"--seconds", "0.001", "--error", "1e-3", "--json"}), cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    CHECK_THAT(member(report, "notChosen").text, Catch::Contains("no time is left to look for a method"));
+    const std::vector<JsonValue>& notes = member(report, "notes").items;
+    REQUIRE(notes.size() == 1);
+    CHECK_THAT(notes.front().text,
+               Catch::Contains("--seconds 0.001 is too short for all of it: 5 of 6 methods were not tried, "
+                               "the choice of a method ended early, "));
+    int timed = 0;
+    for (const JsonValue& point : member(report, "points").items) {
+        if (member(point, "outcome").text == "measured")
+            timed += member(point, "samples").number > 0;
+        else
+            CHECK_FALSE(member(point, "why").text.empty());
+    }
+    CHECK(timed == 1);
 }
 
 TEST_CASE("--error finds a method, once", "[cli]") {

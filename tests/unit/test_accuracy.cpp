@@ -146,10 +146,34 @@ TEST_CASE("the ladder of steps", "[accuracy]") {
     CHECK(stepLadder(1).back() == Step{512, 1});
 }
 
+TEST_CASE("a limit of time is left to later stages where an early one needs less", "[accuracy]") {
+    double clock = 100;
+    const TimeLimit limit(10, [&] { return clock; });
+    CHECK(limit.left() == 10);
+    CHECK(limit.left(0.2) == 2);
+    clock = 101;
+    CHECK(limit.left(0.2) == 1);
+    CHECK(limit.left(0.5) == 4);
+    CHECK(limit.part(0.5).left() == 4);
+    CHECK(*limit.part(0.5).seconds() == 5);
+    CHECK_FALSE(limit.over(0.2));
+    clock = 103;
+    CHECK(limit.over(0.2));
+    CHECK(limit.left(0.2) == 0);
+    CHECK_FALSE(limit.over());
+    clock = 1e9;
+    CHECK(limit.over());
+    const TimeLimit none({}, [&] { return clock; });
+    clock = 1e18;
+    CHECK_FALSE(none.over(0.01));
+    CHECK(std::isinf(none.part(0.5).left()));
+}
+
 TEST_CASE("times end when their seconds are over, and say by the first round what has none", "[accuracy]") {
     // a clock of its own: each visit takes `slow` times what was expected of it
     const std::vector<double> cost = {0.01, 0.02, 0.1, 0.5, 1, 4};
     CHECK(thoseThatFit(cost, 0.2) == std::vector<bool>{true, true, true, false, false, false});
+    CHECK(thoseThatFit({4, 0.5, 1}, 0) == std::vector<bool>{false, true, false});
     CHECK(thoseThatFit({4, 0.5, 1}, 2) == std::vector<bool>{false, true, true});
     CHECK(thoseThatFit(cost, {}) == std::vector<bool>(6, true));
     for (const double slow : {0.5, 1.0, 5.0}) {

@@ -115,7 +115,8 @@ void addMeasure(CLI::App& command, Options& options) {
     addWhole(command, "--molecules", options.molecules, "Molecules of each group whose error is measured", 1,
              1024)
         ->capture_default_str();
-    addSeconds(command, options, "About how long to measure; leaves out what is dearest");
+    addSeconds(command, options,
+               "About how long all of it may take, beside compiling; leaves out what is dearest");
     section(command, reports);
     command.add_flag("--all", options.all, "Every point as text, not only the best ones");
     addFile(command, "--csv", options.csv, "Every point as a row of this file");

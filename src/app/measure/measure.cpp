@@ -1,7 +1,6 @@
 // `shoal measure`: what an error costs on a scene, for every method, step and field sampling.
 #include <algorithm>
 #include <iostream>
-#include <limits>
 #include <thread>
 
 #include "app/measure/measure.h"
@@ -61,12 +60,18 @@ AccuracyOptions accuracyOptions(const Options& options) {
     return out;
 }
 
-void choose(const Scene& scene, const Options& options, const AccuracyDevice& device, MeasureReport& report) {
+void choose(const Scene& scene, const Options& options, const AccuracyDevice& device,
+            std::optional<double> seconds, MeasureReport& report) {
     CalibrationOptions wanted = calibrationOptions(options);
     wanted.error = report.target;
-    wanted.seconds = std::numeric_limits<double>::infinity();  // its plan has told how long it takes
+    wanted.seconds = seconds;
+    wanted.limitOption = "--seconds";
     wanted.solvers = options.solvers;
     wanted.samplings = options.samplings;
+    if (seconds && *seconds <= 0) {
+        report.notChosen = "no time is left to look for a method: give it more with --seconds";
+        return;
+    }
     try {
         report.chosen = calibrate(scene, wanted, device);
     } catch (const Error& error) {
@@ -127,8 +132,8 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
     for (const Group& group : scene.groups)
         report.vertices += double(group.count) * double(group.molecule.vertices.size());
     AccuracyOptions wanted = accuracyOptions(options);
-    wanted.extra = [&] {
-        choose(scene, options, device, report);
+    wanted.extra = [&](std::optional<double> seconds) {
+        choose(scene, options, device, seconds, report);
         std::vector<std::pair<Method, Step>> out;
         if (report.chosen) out.push_back({report.chosen->method, {report.chosen->substeps, 1}});
         return out;

@@ -30,7 +30,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
             << formatted("%.3g", hertz(group.highestFrequency)) << " Hz; error of " << group.measured
             << ", time of " << bench::grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
-        out << "too stiff, so that no errors are given: " << printable(a.tooStiff) << "\n";
+        out << "no errors are given: " << printable(a.tooStiff) << "\n";
     else if (!a.chaotic.empty())
         out << "chaotic, so that no errors are given: " << printable(a.chaotic) << "\n";
     else
