@@ -1,5 +1,6 @@
 #include "bench/bench.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -101,6 +102,11 @@ class FrameEntrant {
 };
 
 }  // namespace
+
+bool fitsAtPace(double seconds, double expected, double elapsed, double most) {
+    const double pace = expected > 0 ? std::max(1.0, elapsed / expected) : 1;
+    return elapsed + pace * seconds <= most;
+}
 
 std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,
                                       const BenchDevice& device, const measure::Schedule& schedule,

@@ -50,6 +50,10 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
                                       const BenchDevice& device, const measure::Schedule& schedule,
                                       const BenchProgress& progress);
 
+// Whether a part that is expected to take so many seconds ends by `most`, at the pace of the parts before it:
+// these were expected to take `expected` s, and took `elapsed` s.
+bool fitsAtPace(double seconds, double expected, double elapsed, double most);
+
 // The cases of a list by their groups, in the order of the list.
 template <typename Case>
 std::vector<std::vector<Case>> byGroup(const std::vector<Case>& cases) {

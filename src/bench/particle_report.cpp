@@ -157,12 +157,12 @@ std::string asText(const ParticleReport& report) {
                  [](const JsonValue& row) { return row.find("allocator"); });
     return asText(report.machine) + "\n" + tableText(particleColumns, cases, "group") +
            tableText(birthColumns, births, "group") + (costs.empty() ? "" : "\n") +
-           tableText(costColumns, costs) + "\n" + papers + targetText(json);
+           tableText(costColumns, costs) + "\n" + papers + targetText(json) + leftOutText(report.leftOut);
 }
 
 JsonValue asJson(const ParticleReport& report) {
     JsonValue out = headOf(report.machine);
-    return append(out, key("secondsAGroup", report.secondsAGroup),
+    return append(out, key("secondsAGroup", report.secondsAGroup), key("leftOut", report.leftOut),
                   key("cases", arrayOf(report.times, asJson)),
                   key("birthCosts", arrayOf(birthCosts(report.times), asJson)),
                   key("targets", asJson(targets(report))));

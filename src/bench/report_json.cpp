@@ -90,8 +90,8 @@ JsonValue asJson(const BenchReport& report) {
                   key("context", asJson(report.machine.context)), key("quick", report.quick),
                   key("pictureSize", concat(pictureWidth, "x", pictureHeight)),
                   key("secondsAGroup", report.secondsAGroup), key("seconds", report.seconds),
-                  key("cases", cases), key("errors", errors), key("startUp", start),
-                  key("passTimes", arrayOf(report.passes, asJson)),
+                  key("leftOut", report.leftOut), key("cases", cases), key("errors", errors),
+                  key("startUp", start), key("passTimes", arrayOf(report.passes, asJson)),
                   key("disturbedCases", disturbed(report.results)),
                   key("targets", arrayOf(targets(report.results, report.machine.context.software), asJson)));
 }

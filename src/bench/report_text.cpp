@@ -66,6 +66,12 @@ std::string targetText(const JsonValue& report, bool whole) {
     return (rows.empty() ? "" : "\n") + tableText(targetColumns, rows);
 }
 
+std::string leftOutText(const std::vector<std::string>& leftOut) {
+    if (leftOut.empty()) return {};
+    return concat("\nLeft out, because the time of --quick was over (--seconds gives each group its own): ",
+                  joined(leftOut, "; "), ".\n");
+}
+
 std::string asText(const BenchReport& report) {
     const JsonValue json = asJson(report);
     const auto rows = [&](const char* key) { return json.find(key)->items; };
@@ -96,7 +102,7 @@ std::string asText(const BenchReport& report) {
                       ", ", passes.find("solver")->text, "; all calls of a frame, which takes ",
                       formatted("%.2f ms\n", passes.find("frameMinSeconds")->number * 1e3))
             << tableText(passColumns, passes.find("passes")->items);
-    out << targetText(json, report.whole);
+    out << targetText(json, report.whole) << leftOutText(report.leftOut);
     if (const int count = disturbed(report.results))
         out << "\nIn " << count << " of " << report.results.size()
             << " cases the median is more than 1.3 times the shortest: something else was running. Measure "

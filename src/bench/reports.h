@@ -19,6 +19,9 @@ JsonValue asJson(const std::vector<Target>& targets);
 // The table of the targets in a report's JSON; without `whole` of those that were measured.
 std::string targetText(const JsonValue& report, bool whole = true);
 
+// Says what there was no time for; nothing where there was time for all.
+std::string leftOutText(const std::vector<std::string>& leftOut);
+
 struct BenchReport {
     MeasuredOn machine;
     bool quick = false;
@@ -30,6 +33,7 @@ struct BenchReport {
     std::vector<BenchError> errors;
     std::vector<StartTime> starts;
     std::vector<PassTable> passes;
+    std::vector<std::string> leftOut = {};  // groups and other parts for which there was no time
 };
 
 std::string asText(const BenchReport& report);
@@ -49,6 +53,7 @@ struct ParticleReport {
     MeasuredOn machine;
     double secondsAGroup = 0;
     std::vector<ParticleTimes> times;
+    std::vector<std::string> leftOut = {};  // groups for which there was no time
 };
 
 std::string asText(const ParticleReport& report);

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <set>
 
-#include "bench/bench.h"
+#include "bench/reports.h"
 #include "support/catch.h"
 
 namespace shoal::bench {
@@ -48,6 +48,24 @@ TEST_CASE("minimum and median of times", "[bench]") {
     const measure::Spread odd = measure::spreadOf({3, 1, 9});
     CHECK((odd.min == 1 && odd.median == 3 && odd.samples == 3));
     CHECK(measure::spreadOf({4, 1, 2, 9}).median == 3);
+}
+
+TEST_CASE("a part is begun only where it ends in time at the pace of those before", "[bench]") {
+    CHECK(fitsAtPace(30, 0, 0, 30));
+    CHECK_FALSE(fitsAtPace(31, 0, 0, 30));
+    CHECK(fitsAtPace(10, 10, 20, 40));  // half as fast as expected
+    CHECK_FALSE(fitsAtPace(10, 10, 20, 39));
+    CHECK(fitsAtPace(10, 10, 5, 15));  // one that was faster promises nothing
+    CHECK_FALSE(fitsAtPace(10, 10, 5, 14));
+}
+
+TEST_CASE("what there was no time for stands in the reports", "[bench]") {
+    BenchReport report;
+    CHECK_THAT(asText(report), !Catch::Contains("Left out"));
+    report.leftOut = {"16,384 fish", "errors"};
+    CHECK_THAT(asText(report),
+               Catch::Contains("the time of --quick was over") && Catch::Contains("16,384 fish; errors.\n"));
+    CHECK(asJson(report).find("leftOut")->items.size() == 2);
 }
 
 TEST_CASE("every case has a name of its own and those of a group share molecules", "[bench]") {

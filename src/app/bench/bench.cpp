@@ -19,6 +19,8 @@ using namespace bench;
 
 namespace {
 
+constexpr double quickSeconds = 30;  // that --quick may take, as its help says
+
 // Everything is asked for by its name: cases, and these beside them.
 constexpr const char *errors = "errors", *starts = "start-up", *passes = "passes";
 
@@ -45,36 +47,61 @@ Wanted wantedOf(const Options& options, bool some = true) {
                        "\", \"", passes, "\""));
 }
 
-// Expected seconds of each part, in the order of measureAll.
-std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& report) {
-    std::vector<double> out;
-    for (const std::vector<BenchCase>& group : wanted.groups) {
-        // the smallest have all their samples before the time is up; of the largest, pictures above all, the
-        // least number takes longer
-        const int count = group.front().count;
-        const double share = count < 2000 && group.front().molecule == "quad" ? 0.4
-                             : count > 1000000                                ? 2.2
-                                                                              : 1.1;
-        out.push_back(share * report.secondsAGroup + 1);
-    }
-    if (wanted.passes) out.push_back(report.secondsAGroup + 1);
-    if (wanted.errors) out.push_back(report.quick ? 2 : 8);
-    if (wanted.starts) out.push_back(report.quick ? 2 : 8);
+struct BenchPart {
+    std::string name;
+    double expected;  // s
+    std::function<void(const BenchProgress&)> measure;
+};
+
+double expectedSeconds(const BenchCase& first, double secondsAGroup) {
+    // the smallest have all their samples before the time is up; of the largest, pictures above all, the
+    // least number takes longer
+    const double share = first.count < 2000 && first.molecule == "quad" ? 0.4
+                         : first.count > 1000000                        ? 2.2
+                                                                        : 1.1;
+    return share * secondsAGroup + 1;
+}
+
+std::vector<BenchPart> partsOf(const Wanted& wanted, const BenchMolecules& molecules,
+                               const BenchDevice& device, const measure::Schedule& schedule,
+                               BenchReport& report) {
+    std::vector<BenchPart> out;
+    for (const std::vector<BenchCase>& group : wanted.groups)
+        out.push_back({group.front().group, expectedSeconds(group.front(), report.secondsAGroup),
+                       [&](const BenchProgress& progress) {
+                           const std::vector<BenchResult> results =
+                               measureGroup(group, molecules, device, schedule, progress);
+                           report.results.insert(report.results.end(), results.begin(), results.end());
+                       }});
+    const double fewSeconds = report.quick ? 2 : 8;
+    if (wanted.passes)
+        out.push_back({passes, report.secondsAGroup + 1, [&](const BenchProgress& progress) {
+                           report.passes =
+                               measurePasses(molecules, device, report.quick, report.secondsAGroup, progress);
+                       }});
+    if (wanted.errors)
+        out.push_back({errors, fewSeconds, [&](const BenchProgress& progress) {
+                           report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, progress);
+                       }});
+    if (wanted.starts)
+        out.push_back({starts, fewSeconds, [&](const BenchProgress& progress) {
+                           report.starts = measureStart(molecules, device, report.quick, progress);
+                       }});
     return out;
 }
 
 // Runs a part. Where the device goes on after failures, that of a whole part is one of the report's.
-template <typename Part>
-void runPart(const BenchDevice& device, const std::string& name, BenchReport& report, const Part& part) {
+void runPart(const BenchPart& part, const BenchDevice& device, BenchReport& report,
+             const BenchProgress& progress) {
     try {
-        part();
+        part.measure(progress);
         device.context->checkAlive();
     } catch (const gpu::DeviceLost&) {
         throw;
     } catch (const Error& error) {
         if (!device.goesOn) throw;
         BenchResult failed;
-        failed.benchCase.group = name;
+        failed.benchCase.group = part.name;
         failed.benchCase.label = "all of it";
         failed.failed = error.what();
         report.results.push_back(std::move(failed));
@@ -82,31 +109,22 @@ void runPart(const BenchDevice& device, const std::string& name, BenchReport& re
 }
 
 void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const BenchDevice& device,
-                const measure::Schedule& schedule, BenchReport& report) {
-    WholeRun run(expectedSeconds(wanted, report));
-    const auto progress = [&](double share) { run.tell(share); };
-    for (const std::vector<BenchCase>& group : wanted.groups) {
-        runPart(device, group.front().group, report, [&] {
-            const std::vector<BenchResult> results =
-                measureGroup(group, molecules, device, schedule, progress);
-            report.results.insert(report.results.end(), results.begin(), results.end());
-        });
+                const BenchSession& session, BenchReport& report) {
+    const std::vector<BenchPart> parts = partsOf(wanted, molecules, device, session.schedule, report);
+    std::vector<double> expected;
+    for (const BenchPart& part : parts)
+        expected.push_back(part.expected);
+    WholeRun run(expected, session.mostSeconds);
+    const BenchProgress progress = [&](double share) { run.tell(share); };
+    for (const BenchPart& part : parts) {
+        if (!run.fits()) {
+            report.leftOut.push_back(part.name);
+            run.leaveOut();
+            continue;
+        }
+        runPart(part, device, report, progress);
         run.next();
     }
-    if (wanted.passes) {
-        runPart(device, passes, report, [&] {
-            report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, progress);
-        });
-        run.next();
-    }
-    if (wanted.errors) {
-        runPart(device, errors, report,
-                [&] { report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, progress); });
-        run.next();
-    }
-    if (wanted.starts)
-        runPart(device, starts, report,
-                [&] { report.starts = measureStart(molecules, device, report.quick, progress); });
     run.end();
     report.seconds = run.elapsed();
 }
@@ -131,6 +149,7 @@ BenchSession::BenchSession(const Options& options, double usual, double quick)
       machine(bench::measuredOn(context, SHOAL_VERSION)),
       device{&context, drawMaker(context), machine.cores, false, !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
+    if (options.quick && !options.seconds) mostSeconds = quickSeconds;
 }
 
 void BenchSession::end() {
@@ -138,7 +157,8 @@ void BenchSession::end() {
     tellWarnings(context.cache().takeWarnings());
 }
 
-WholeRun::WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {
+WholeRun::WholeRun(std::vector<double> parts, std::optional<double> most)
+    : parts_(std::move(parts)), most_(most) {
     std::cerr << "This takes about " << roughly(std::accumulate(parts_.begin(), parts_.end(), 0.0)) << ".\n";
     bar_.emplace("per cent", 100);
 }
@@ -147,6 +167,15 @@ void WholeRun::tell(double share) {
     const double rest =
         std::accumulate(parts_.begin() + part_ + 1, parts_.end(), (1 - share) * parts_[size_t(part_)]);
     bar_->reach(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
+}
+
+bool WholeRun::fits() const {
+    return !most_ || fitsAtPace(parts_[size_t(part_)], expected_, elapsed(), *most_);
+}
+
+void WholeRun::next() {
+    expected_ += parts_[size_t(part_)];
+    ++part_;
 }
 
 BenchReport measureSpeeds(const Options& options, BenchSession& session) {
@@ -163,7 +192,7 @@ BenchReport measureSpeeds(const Options& options, BenchSession& session) {
     if (!info.computeShaders)
         std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has " << info.version
                   << ": its cases are left out\n";
-    measureAll(wanted, molecules, session.device, session.schedule, report);
+    measureAll(wanted, molecules, session.device, session, report);
     return report;
 }
 

@@ -23,20 +23,26 @@ struct BenchSession {
     bench::MeasuredOn machine;
     bench::BenchDevice device;
     measure::Schedule schedule;
+    std::optional<double> mostSeconds = {};  // of all groups: with --quick, unless --seconds says otherwise
 };
 
 // One bar for a whole run, whose end is estimated anew with every step; first it tells how long that is.
 class WholeRun {
   public:
-    // `parts`: seconds that each is expected to take.
-    explicit WholeRun(std::vector<double> parts);
+    // `parts`: seconds that each is expected to take; `most`: that all of them may.
+    explicit WholeRun(std::vector<double> parts, std::optional<double> most = {});
+    // Whether the next part ends in time, at the pace of those before.
+    bool fits() const;
     void tell(double share);  // of this part that is done
-    void next() { ++part_; }
+    void next();              // the part is done
+    void leaveOut() { parts_[size_t(part_++)] = 0; }
     void end() { bar_->reach(100); }
     double elapsed() const { return measure::secondsSince(start_); }
 
   private:
     std::vector<double> parts_;
+    std::optional<double> most_;
+    double expected_ = 0;  // s, of the parts that are done
     ptrdiff_t part_ = 0;
     std::optional<Progress> bar_;
     measure::Clock::time_point start_ = measure::Clock::now();

@@ -35,14 +35,19 @@ int benchParticlesCommand(const Options& options) {
     BenchSession session(options, 8, 1);
     ParticleReport report;
     report.secondsAGroup = session.schedule.seconds;
-    std::cerr << "This takes about " << roughly(double(groups.size()) * (report.secondsAGroup * 1.2 + 3))
-              << ".\n";
-    Progress bar("groups", int(groups.size()));
+    WholeRun run(std::vector<double>(groups.size(), report.secondsAGroup * 1.2 + 3), session.mostSeconds);
     for (const std::vector<ParticleCase>& group : groups) {
+        if (!run.fits()) {
+            report.leftOut.push_back(group.front().group);
+            run.leaveOut();
+            continue;
+        }
         for (ParticleTimes& times : measureParticles(group, point, quad, session.device, session.schedule))
             report.times.push_back(std::move(times));
-        bar.step();
+        run.tell(1);
+        run.next();
     }
+    run.end();
     session.end();
     report.machine = session.machine;
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));

@@ -265,6 +265,7 @@ int benchDeviceCommand(const Options& options) {
     const std::vector<NamedFile> scenes = shippedScenes();
     BenchSession session(options, secondsAGroup, quickSecondsAGroup);
     session.device.goesOn = true;
+    session.mostSeconds.reset();  // a report has every group
     session.schedule.patience = patience;
     BenchDevice& device = session.device;
     DeviceReport report;

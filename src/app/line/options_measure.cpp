@@ -84,7 +84,8 @@ void addBench(CLI::App& command, Options& options) {
         ->type_name(joined(benchWords, "|"));
     addContext(command, options);
     section(command, "What is measured");
-    command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
+    command.add_flag("--quick", options.quick,
+                     "Small groups only, and of them what fits into half a minute; with --seconds all");
     addSeconds(command, options, "Time for each group of cases (default 12, quick 2)");
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
     addFile(
