@@ -84,13 +84,26 @@ JsonValue asJson(const SearchReport& report) {
                   key("overSpeed", arrayOf(report.steps, asJson)));
 }
 
+// Says what the table's densities are.
+std::string legend(const std::vector<ContactTimes>& contact) {
+    std::vector<std::string> densities;
+    for (const ContactTimes& times : contact) {
+        const std::string text =
+            formatted("%s: %.3g m³ a quad", times.benchCase.density.c_str(), times.benchCase.room);
+        if (densities.empty() || densities.back() != text) densities.push_back(text);
+    }
+    return concat("one contact step of quads at random in a cube, a sphere of ", ContactCase::radius,
+                  " m at each corner; ", joined(densities, ", "), "\n");
+}
+
 }  // namespace
 
 std::string asText(const CollideReport& report) {
     const JsonValue json = asJson(report);
     std::string out = asText(report.machine) + "\n";
     if (!report.contact.empty())
-        out += tableText(contactColumns, json.find("contact")->items, "density") + targetText(json);
+        out += legend(report.contact) + tableText(contactColumns, json.find("contact")->items, "density") +
+               targetText(json);
     if (!report.searches) return out;
     if (report.searches->shares.empty()) return out + "\nsearches left out: need OpenGL 4.3\n";
     const JsonValue& searches = *json.find("searches");

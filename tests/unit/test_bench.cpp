@@ -68,6 +68,13 @@ TEST_CASE("what there was no time for stands in the reports", "[bench]") {
     CHECK(asJson(report).find("leftOut")->items.size() == 2);
 }
 
+TEST_CASE("the table of contact says what room a density leaves to a quad", "[bench]") {
+    CollideReport report;
+    for (const ContactCase& one : contactCases(true))
+        report.contact.push_back({.benchCase = one, .leftOut = "not measured"});
+    CHECK_THAT(asText(report), Catch::Contains("moderate: 0.0277 m³ a quad, dense: 0.00337 m³ a quad"));
+}
+
 TEST_CASE("every case has a name of its own and those of a group share molecules", "[bench]") {
     for (const bool quick : {false, true}) {
         const std::vector<BenchCase> all = benchCases(quick);
