@@ -1,7 +1,7 @@
 #include "python/parameters.h"
 
 #include <algorithm>
-#include <limits>
+#include <functional>
 
 #include "core/error.h"
 #include "python/arguments.h"
@@ -128,36 +128,42 @@ void bindParameters(py::module_& m) {
         .def("__repr__", &PyFactors::text);
 
     py::class_<PyParameters> out(m, "Parameters", "What may change between frames.");
-    const auto factor = [&](const char* name, double Parameters::*member, double least, const char* doc) {
+    // Of a number; `set` refuses what it cannot be.
+    const auto number = [&](const char* name, double Parameters::*member, const char* expected,
+                            const std::function<bool(double)>& holds, const char* doc) {
         out.def_property(
             name, [member](const PyParameters& self) { return parametersOf(self).*member; },
-            [name, member, least](PyParameters& self, double value) {
-                if (finite(name, value) < least) throw Error(name, " is at least ", least, ", not ", value);
-                parametersOf(self).*member = value;
+            [name, member, expected, holds](PyParameters& self, double value) {
+                if (!holds(finite(name, value))) throw Error(name, " is ", expected, ", not ", value);
+                Parameters changed = parametersOf(self);
+                changed.*member = value;
+                self.simulation->setParameters(name, changed);
             },
             doc);
     };
-    constexpr double any = -std::numeric_limits<double>::infinity();
-    factor("wind", &Parameters::wind, any, "Factor on every field.");
-    factor("drag", &Parameters::drag, 0, "Factor on every drag rate.");
-    factor("stiffness", &Parameters::stiffness, 0, "Factor on every spring.");
-    factor("damping", &Parameters::damping, 0, "Factor on every spring's damping.");
+    const auto positive = [](double value) { return value >= 0; };
+    number(
+        "wind", &Parameters::wind, "", [](double) { return true; },
+        "Factor on every field; 1 as in the scene.");
+    number("drag", &Parameters::drag, "at least 0", positive,
+           "Factor on every drag rate, at least 0; 1 as in the scene.");
+    number("stiffness", &Parameters::stiffness, "at least 0", positive,
+           "Factor on every spring's stiffness, at least 0; 1 as in the molecule.");
+    number("damping", &Parameters::damping, "at least 0", positive,
+           "Factor on every spring's damping, at least 0; 1 as in the molecule.");
+    number(
+        "frame_time", &Parameters::frameTime, "from 1e-5 to 1 s",
+        [](double value) { return value >= 1e-5 && value <= 1; }, "Of a frame, in s.");
     out.def_property(
         "substeps", [](const PyParameters& self) { return parametersOf(self).substeps; },
         [](PyParameters& self, int value) {
             if (value < 1 || value > maxSubsteps)
                 throw Error("a frame has 1 to ", maxSubsteps, " substeps, not ", value);
-            parametersOf(self).substeps = value;
+            self.simulation->setParameters("substeps", parametersOf(self), value);
         },
-        "Of a frame.");
-    out.def_property(
-        "frame_time", [](const PyParameters& self) { return parametersOf(self).frameTime; },
-        [](PyParameters& self, double value) {
-            if (!(finite("frame_time", value) >= 1e-5 && value <= 1))
-                throw Error("frame_time is from 1e-5 to 1 s, not ", value);
-            parametersOf(self).frameTime = value;
-        },
-        "s, of a frame.");
+        "Of a frame, 1 to 1000. Where stiffness, damping, drag or frame_time need more than were asked for, "
+        "a "
+        "frame takes these, and a RuntimeWarning says how many.");
     out.def_property(
         "gravity",
         [](const PyParameters& self) {
@@ -167,7 +173,7 @@ void bindParameters(py::module_& m) {
         [](PyParameters& self, const Vector3& value) {
             parametersOf(self).gravity = finite("gravity", value);
         },
-        "m/s^2.");
+        "x, y, z in m/s^2; what it returns is a copy.");
     const auto factors = [&](const char* name, PyFactors::Kind kind, const char* doc) {
         out.def_property(
             name,

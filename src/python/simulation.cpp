@@ -109,6 +109,10 @@ static std::vector<glm::dvec3> given(const char* what, const Array& array, const
     return out;
 }
 
+static void warn(const std::string& words) {
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, words.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string>& solver,
                            std::optional<int> substeps, std::optional<int> device, const std::string& path)
     : scene_(scene.scene) {
@@ -124,8 +128,9 @@ PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string
         options.path = wanted;
         simulation_ = std::make_unique<Simulation>(device_->context, compile(scene_), options);
     }
+    substeps_ = simulation_->parameters.substeps;
     for (const Warning& warning : simulation_->warnings())
-        if (PyErr_WarnEx(PyExc_RuntimeWarning, text(warning).c_str(), 1) != 0) throw py::error_already_set();
+        warn(text(warning));
 }
 
 PySimulation::~PySimulation() {
@@ -272,6 +277,22 @@ void PySimulation::load(const std::filesystem::path& file) {
     const Checkpoint read = readCheckpoint(file, simulation.plan());
     simulation.load(read.state);
     simulation.parameters = read.parameters;
+    substeps_ = read.parameters.substeps;
+}
+
+void PySimulation::setParameters(const char* name, Parameters changed, std::optional<int> substeps) {
+    Simulation& simulation = use();
+    const int wanted = substeps.value_or(substeps_);
+    const int needed = substepsNeeded(simulation.plan(), changed.frameTime, changed.stiffness,
+                                      changed.damping, changed.drag, wanted);
+    if (needed > maxSubsteps)
+        throw Error(name, ": a frame would need ", needed, " substeps and has at most ", maxSubsteps);
+    if (needed > wanted && (substeps || needed > simulation.parameters.substeps))
+        warn(concat(name, ": a frame takes ", needed,
+                    " substeps, because its springs or its drag need more than ", wanted));
+    changed.substeps = needed;
+    simulation.parameters = std::move(changed);
+    substeps_ = wanted;
 }
 
 Simulation& PySimulation::use() {

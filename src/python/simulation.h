@@ -83,6 +83,10 @@ class PySimulation {
 
     // Its device's context is current then. Error: it was closed.
     Simulation& use();
+    // Takes them with as many substeps as they need, at least those that were asked for: `substeps`, or the
+    // last ones. RuntimeWarning: these are more. Error: they are more than a frame has. `name`: of what
+    // changed.
+    void setParameters(const char* name, Parameters changed, std::optional<int> substeps = {});
     const Scene& scene() const { return scene_; }
 
   private:
@@ -95,6 +99,7 @@ class PySimulation {
     Device* device_ = nullptr;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
+    int substeps_ = 1;  // of a frame, as asked for
 };
 
 }  // namespace shoal::python

@@ -112,6 +112,32 @@ def test_parameters_act(hello):
     other.close()
 
 
+def test_parameters_that_need_more_substeps_get_them(recwarn):
+    def frames(**parameters):
+        with shoal.Simulation(pairs(), solver="leapfrog", substeps=2) as simulation:
+            for name, value in parameters.items():
+                setattr(simulation.parameters, name, value)
+            taken = simulation.parameters.substeps
+            simulation.step(5)
+            return taken, simulation.positions()
+    assert frames(stiffness=1)[0] == 2 and not recwarn
+    with pytest.warns(RuntimeWarning, match="^stiffness: a frame takes [0-9]+ substeps, .* more than 2$"):
+        needed, positions = frames(stiffness=1e4)
+    assert 2 < needed < 1000 and np.isfinite(positions).all()
+    with shoal.Simulation(pairs(), solver="leapfrog", substeps=2) as simulation:
+        parameters = simulation.parameters
+        with pytest.warns(RuntimeWarning):
+            parameters.stiffness = 1e4
+        with pytest.warns(RuntimeWarning, match=f"^substeps: a frame takes {needed} substeps, .* more than 3$"):
+            parameters.substeps = 3
+        assert parameters.substeps == needed
+        parameters.stiffness = 1
+        assert parameters.substeps == 3  # as was asked for
+        with pytest.raises(shoal.Error, match="stiffness: a frame would need [0-9]+ substeps and has at most 1000"):
+            parameters.stiffness = 1e12
+        assert parameters.stiffness == 1 and parameters.substeps == 3
+
+
 def test_fields_and_forces_have_factors():
     scene = pairs(
         gravity=[0, 0, 0],
