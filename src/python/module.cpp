@@ -8,6 +8,7 @@
 #include "molecule/molecule_file.h"
 #include "python/arguments.h"
 #include "python/parameters.h"
+#include "python/picture.h"
 #include "python/scene.h"
 #include "python/simulation.h"
 #include "run/scene_list.h"
@@ -145,6 +146,7 @@ void bindSimulation(py::module_& m) {
              py::arg("field_of_view") = py::none(),
              "RGBA, uint8 of shape (height, width, 4), from the scene's camera or from `eye` to `target` (m; "
              "rad).")
+        .def("_repr_png_", &PySimulation::shown, "What a notebook shows: the picture as it is now.")
         .def("hash", &PySimulation::hash, "Of the state's bits: equal states, equal hashes.")
         .def("save", &PySimulation::save, py::arg("file"), "Writes a checkpoint.")
         .def("load", &PySimulation::load, py::arg("file"), "Goes on from a checkpoint of this scene.");
@@ -229,6 +231,7 @@ PYBIND11_MODULE(shoal, m) {
             return out;
         });
 
+    bindPicture(m);
     bindParameters(m);
     bindSimulation(m);
     bindChecks(m);

@@ -10,6 +10,7 @@
 
 #include "gpu/current.h"
 #include "python/arguments.h"
+#include "python/picture.h"
 #include "run/data_paths.h"
 #include "scene/json/scene_file.h"
 #include "simulate/checkpoint.h"
@@ -261,9 +262,13 @@ py::array PySimulation::picture(int width, int height, const std::optional<std::
         renderer_->draw(simulation.state(), view);
         image = renderer_->capture();
     }
-    py::array_t<uint8_t> out({py::ssize_t(height), py::ssize_t(width), py::ssize_t(4)});
-    std::copy(image.pixels.begin(), image.pixels.end(), out.mutable_data());
-    return out;
+    return pictureOf(image);
+}
+
+py::object PySimulation::shown() {
+    constexpr int width = 640, height = 360;
+    if (!simulation_) return py::none();
+    return picture(width, height, {}, {}, {}).attr("_repr_png_")();
 }
 
 void PySimulation::save(const std::filesystem::path& file) {

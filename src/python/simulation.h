@@ -78,6 +78,9 @@ class PySimulation {
     py::array picture(int width, int height, const std::optional<Vector3>& eye,
                       const std::optional<Vector3>& target, std::optional<double> fieldOfView);
 
+    // For notebooks: the bytes of a PNG file; None once it was closed.
+    py::object shown();
+
     void save(const std::filesystem::path& file);
     void load(const std::filesystem::path& file);
 
