@@ -32,6 +32,28 @@ std::string inOurWords(const std::string& signature) {
     return out;
 }
 
+// Returns "step(self, frames=1)" of "step(self: Simulation, frames: int = 1) -> None": inspect and help()
+// read that from the first line of a builtin's doc. Nothing: the text begins otherwise.
+std::string plainSignature(const std::string& text) {
+    const std::string line = text.substr(0, text.find('\n'));
+    const size_t begin = line.find('('), end = line.rfind(") -> ");
+    if (begin == std::string::npos || end == std::string::npos || end < begin) return {};
+    std::string out = line.substr(0, begin);
+    int depth = 0;
+    bool isType = false;  // between a parameter's name and its default
+    for (size_t i = begin; i <= end; ++i) {
+        const char c = line[i];
+        depth += (c == '(' || c == '[') - (c == ')' || c == ']');
+        if (depth == 1 && c == ':') isType = true;
+        const bool isDefault = depth == 1 && line.compare(i, 3, " = ") == 0;
+        if (isDefault || (depth == 1 && c == ',') || depth == 0) isType = false;
+        if (isType) continue;
+        if (isDefault) i += 2;
+        out += isDefault ? '=' : c;
+    }
+    return out;
+}
+
 // Returns the parameters, without that of the object itself: of "    1. (self: X, frames: int = 1) -> None"
 // in pybind11's message "frames: int = 1". Nothing: the message is another.
 std::optional<std::string> parametersIn(const std::string& message, bool method) {
@@ -91,7 +113,9 @@ py::object told(const py::object& function, const std::string& name, const std::
         }
     };
     const py::object doc = py::getattr(function, "__doc__", py::none());
-    const std::string text = doc.is_none() ? "" : inOurWords(std::string(py::str(doc)));
+    std::string text = doc.is_none() ? "" : inOurWords(std::string(py::str(doc)));
+    if (const std::string signature = plainSignature(text); !signature.empty())
+        text = concat(signature, "\n--\n\n", text);
     if (!method) return py::cpp_function(call, py::name(name.c_str()), py::doc(text.c_str()));
     return py::cpp_function(call, py::name(name.c_str()), py::doc(text.c_str()), py::is_method(*owner));
 }

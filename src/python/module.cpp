@@ -117,47 +117,57 @@ void bindSimulation(py::module_& m) {
                       std::optional<int>, const std::string&>(),
              py::arg("scene"), py::kw_only(), py::arg("solver") = py::none(),
              py::arg("substeps") = py::none(), py::arg("device") = py::none(), py::arg("path") = "auto",
-             "`device`: of those that `shoal info` lists; None: the best.")
-        .def("step", &PySimulation::step, py::arg("frames") = 1, Unlocked(), "Goes on by so many frames.")
-        .def("restart", &PySimulation::restart, Unlocked(), "Back to the start state.")
+             "`solver`: by its name, and `substeps` of a frame: None: as the scene says; `device`: of those "
+             "that `shoal info` lists, None: the best; `path`: auto, fused, fragments or ping-pong.")
+        .def("step", &PySimulation::step, py::arg("frames") = 1, Unlocked(),
+             "Goes on by so many frames, each of parameters.frame_time (s).")
+        .def("restart", &PySimulation::restart, Unlocked(),
+             "Goes back to the start state, with the parameters as they are.")
         .def("close", &PySimulation::close, "Frees what it holds on the device.")
         .def(
             "__enter__", [](PySimulation& self) -> PySimulation& { return self; },
             py::return_value_policy::reference)
         .def("__exit__", [](PySimulation& self, const py::args&) { self.close(); })
-        .def_property_readonly("time", &PySimulation::time, "s.")
-        .def_property_readonly("frames", &PySimulation::frames)
-        .def_property_readonly("groups", &PySimulation::groups, "Their names.")
+        .def_property_readonly("time", &PySimulation::time, "Simulated time since the start, in s.")
+        .def_property_readonly("frames", &PySimulation::frames, "How many were taken since the start.")
+        .def_property_readonly("groups", &PySimulation::groups, "The names of the groups.")
         .def_property_readonly(
             "parameters",
-            py::cpp_function([](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>()))
-        .def("solver", &PySimulation::solver, group, "The method of a group.")
+            py::cpp_function([](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>()),
+            "What may change between frames: see Parameters.")
+        .def("solver", &PySimulation::solver, group, "The name of the method that a group takes.")
         .def("positions", &PySimulation::positions, group,
-             "m, float64 of shape (molecules, vertices, 3): a copy.")
-        .def("velocities", &PySimulation::velocities, group, "m/s, likewise.")
+             "Positions in m, float64 of shape (molecules, vertices, 3): a copy.")
+        .def("velocities", &PySimulation::velocities, group,
+             "Velocities in m/s, float64 of shape (molecules, vertices, 3): a copy.")
         .def("normals", &PySimulation::normals, group,
-             "Unit vectors, float32; zero where there are no triangles.")
-        .def("alive", &PySimulation::alive, group, "Whether each place holds a living molecule.")
+             "Unit normals, float32 of shape (molecules, vertices, 3): a copy; zero where there are no "
+             "triangles.")
+        .def("alive", &PySimulation::alive, group,
+             "Whether each place holds a living molecule, bool of shape (molecules,).")
         .def("set_state", &PySimulation::setState, group, py::kw_only(), py::arg("positions") = py::none(),
-             py::arg("velocities") = py::none(), "Arrays of the shape of positions(), m and m/s.")
-        .def("energy", &PySimulation::energy, group, "J, of all living: kinetic, elastic (springs), gravity.")
+             py::arg("velocities") = py::none(),
+             "Writes `positions` in m, `velocities` in m/s, or both: arrays of shape (molecules, vertices, "
+             "3).")
+        .def("energy", &PySimulation::energy, group,
+             "Energies in J of all that live: kinetic, elastic (of the springs), gravity.")
         .def("picture", &PySimulation::picture, py::arg("width") = 640, py::arg("height") = 360,
              py::kw_only(), py::arg("eye") = py::none(), py::arg("target") = py::none(),
              py::arg("field_of_view") = py::none(),
-             "RGBA, uint8 of shape (height, width, 4), from the scene's camera or from `eye` to `target` (m; "
-             "rad).")
+             "Draws a Picture of `width` times `height` pixels, from the scene's camera or from `eye` to "
+             "`target` (x, y, z in m) with a vertical `field_of_view` in rad.")
         .def("_repr_png_", &PySimulation::shown, "What a notebook shows: the picture as it is now.")
-        .def("hash", &PySimulation::hash, "Of the state's bits: equal states, equal hashes.")
-        .def("save", &PySimulation::save, py::arg("file"), "Writes a checkpoint.")
+        .def("hash", &PySimulation::hash, "A hash of the state's bits: equal states have equal ones.")
+        .def("save", &PySimulation::save, py::arg("file"), "Writes a checkpoint, as `shoal run --save` does.")
         .def("load", &PySimulation::load, py::arg("file"), "Goes on from a checkpoint of this scene.");
 }
 
 void bindChecks(py::module_& m) {
     py::class_<FileFinding>(m, "Finding", "Something wrong in a file, or probably not meant.")
-        .def_readonly("file", &FileFinding::file)
-        .def_readonly("line", &FileFinding::line)
-        .def_readonly("path", &FileFinding::path)
-        .def_readonly("message", &FileFinding::message)
+        .def_readonly("file", &FileFinding::file, "Where it is.")
+        .def_readonly("line", &FileFinding::line, "From 1; 0: of the whole file.")
+        .def_readonly("path", &FileFinding::path, "Of the value in the file, such as $.groups[0].count.")
+        .def_readonly("message", &FileFinding::message, "What is wrong.")
         .def_readonly("error", &FileFinding::error, "Whether the file cannot be used.")
         .def("__repr__", [](const FileFinding& self) {
             return concat(self.file, ":", self.line, ": ",
@@ -169,7 +179,7 @@ void bindChecks(py::module_& m) {
           py::arg("device") = py::none(),
           "Error against cost of every method, as a list of dicts: relative error; s per vertex and "
           "simulated second. `duration`: s of simulated time; `solvers`: only these, or all where none is "
-          "named; `seconds`: of measuring, about.");
+          "named; `seconds`: about how long all of it may take, None: as long as it does.");
 }
 
 }  // namespace
@@ -208,9 +218,13 @@ PYBIND11_MODULE(shoal, m) {
 
     py::class_<PyMolecule>(m, "Molecule", "A small mesh of vertices, springs and triangles.")
         .def(py::init(&moleculeFrom), py::arg("source"), "From a file, or a dict with the keys of one.")
-        .def_property_readonly("name", [](const PyMolecule& self) { return self.molecule.name; })
-        .def_property_readonly("vertices", &restPositions, "Rest positions, m, of shape (vertices, 3).")
-        .def_property_readonly("springs", [](const PyMolecule& self) { return self.molecule.springs.size(); })
+        .def_property_readonly(
+            "name", [](const PyMolecule& self) { return self.molecule.name; }, "The name in its file.")
+        .def_property_readonly("vertices", &restPositions,
+                               "Rest positions in m, float64 of shape (vertices, 3).")
+        .def_property_readonly(
+            "springs", [](const PyMolecule& self) { return self.molecule.springs.size(); },
+            "How many springs it has.")
         .def(
             "save",
             [](const PyMolecule& self, const std::filesystem::path& file) {
@@ -223,13 +237,17 @@ PYBIND11_MODULE(shoal, m) {
              "From a file, the name of a scene that ships, or a dict with the keys of a scene file, whose "
              "file names "
              "are relative to `folder`. A group's \"molecule\" may also be a Molecule or a dict.")
-        .def_property_readonly("name", [](const PyScene& self) { return self.scene.name; })
-        .def_property_readonly("groups", [](const PyScene& self) {
-            std::vector<std::string> out;
-            for (const Group& group : self.scene.groups)
-                out.push_back(group.name);
-            return out;
-        });
+        .def_property_readonly(
+            "name", [](const PyScene& self) { return self.scene.name; }, "The name in its file.")
+        .def_property_readonly(
+            "groups",
+            [](const PyScene& self) {
+                std::vector<std::string> out;
+                for (const Group& group : self.scene.groups)
+                    out.push_back(group.name);
+                return out;
+            },
+            "The names of the groups.");
 
     bindPicture(m);
     bindParameters(m);

@@ -119,12 +119,12 @@ static Parameters& parametersOf(const PyParameters& self) {
 void bindParameters(py::module_& m) {
     py::class_<PyFactors>(m, "Factors", "Factors by name or number, in the scene's order.")
         .def("__len__", &PyFactors::size)
-        .def("__getitem__", &PyFactors::get)
-        .def("__setitem__", &PyFactors::set)
+        .def("__getitem__", &PyFactors::get, py::arg("key"))
+        .def("__setitem__", &PyFactors::set, py::arg("key"), py::arg("factor"))
         .def("__iter__", [](const PyFactors& self) { return py::iter(py::cast(self.names())); })
         .def("keys", &PyFactors::names, "Their names.")
-        .def("values", &PyFactors::values)
-        .def("items", &PyFactors::items)
+        .def("values", &PyFactors::values, "The factors.")
+        .def("items", &PyFactors::items, "Pairs of name and factor.")
         .def("__repr__", &PyFactors::text);
 
     py::class_<PyParameters> out(m, "Parameters", "What may change between frames.");

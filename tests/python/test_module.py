@@ -1,7 +1,9 @@
 """The Python module, as a user has it. Run by ctest; alone: PYTHONPATH=build/python python3 -m pytest tests/python"""
 import ast
+import inspect
 import os
 import pathlib
+import pydoc
 import shutil
 import signal
 import subprocess
@@ -378,6 +380,35 @@ def test_stubs_name_what_the_module_has():
         if node.name != "Error":  # whose members are those of an instance
             public = {name for name in set(dir(has)) - set(dir(has.__base__)) if not name.startswith("_")}
             assert public == {name for name in named if not name.startswith("_")}, node.name
+            for name in public:
+                assert getattr(has, name).__doc__, (node.name, name)
+        for item in node.body:
+            if isinstance(item, ast.FunctionDef) and not item.decorator_list and not item.name.startswith("_"):
+                assert names_of(getattr(has, item.name)) == [a.arg for a in item.args.args + item.args.kwonlyargs]
+
+
+def names_of(function):
+    return list(inspect.signature(function).parameters)
+
+
+def test_help_names_arguments_and_units():
+    simulation = shoal.Simulation
+    assert names_of(simulation) == ["scene", "solver", "substeps", "device", "path"]
+    assert str(inspect.signature(simulation.step)) == "(self, frames=1)"
+    assert str(inspect.signature(simulation.set_state)) == "(self, group=None, *, positions=None, velocities=None)"
+    assert names_of(shoal.measure) == ["scene", "duration", "solvers", "seconds", "device"]
+    shown = pydoc.render_doc(simulation.picture, renderer=pydoc.plaintext)
+    assert "picture(self, width=640, height=360, *, eye=None, target=None, field_of_view=None)" in shown
+    for member, unit in (
+        (simulation.positions, " m,"),
+        (simulation.velocities, " m/s,"),
+        (simulation.energy, " J "),
+        (simulation.time, " s."),
+        (shoal.Parameters.gravity, " m/s^2"),
+        (shoal.Parameters.frame_time, " s."),
+        (shoal.Molecule.vertices, " m,"),
+    ):
+        assert unit in member.__doc__
 
 
 @pytest.mark.parametrize("script", ["sweep", "ribbon", "resets"])
