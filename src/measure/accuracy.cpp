@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/field_kinds.h"
 namespace shoal::measure {
 
 namespace {
@@ -111,8 +110,7 @@ class Sweep {
     }
 
     void leaveOut(Curve& curve) {
-        curve.refused = "there was no time to make it ready";
-        add(curve, ladder_.front()).why = curve.refused;
+        add(curve, ladder_.front()).why = curve.refused = "there was no time to make it ready";
         curve.done = true;
         ++unready_;
     }
@@ -198,7 +196,23 @@ class Sweep {
         progress_.stage(words);
     }
 
+    // Fewer molecules, each of which has the time that it needs, tell more than all without a reference.
+    void takeFewerMolecules() {
+        const double share = limit_.left(byReference) / reference_->secondsToSolve();
+        const int most =
+            std::max(std::min(device_.cores, options_.molecules), int(share * options_.molecules));
+        const auto first = std::find_if(curves_.begin(), curves_.end(),
+                                        [](const Curve& curve) { return curve.refused.empty(); });
+        first->few->restart();
+        reference_ = std::make_unique<ExactEnds>(few_, first->few->simulation().plan(),
+                                                 first->few->snapshots(), out_.duration, device_.cores, most);
+        for (AccuracyGroup& group : out_.groups)
+            group.measured = std::min(group.measured, most);
+        cut_.push_back(concat("errors are of ", most, " molecules of a group at most"));
+    }
+
     void solveReference() {
+        if (reference_->secondsToSolve() > limit_.left(byReference)) takeFewerMolecules();
         settled_ = reference_->solve(firstTolerance, reference_->secondsEach(limit_.left(byReference)));
         if (settled_ != Settled::yes && limit_.over(byReference)) cut_.push_back("the reference ended early");
         if (settled_ == Settled::chaotic) out_.chaotic = reference_->why();
@@ -419,16 +433,6 @@ class Sweep {
 const char* name(Outcome outcome) {
     static constexpr const char* names[] = {"measured", "refused", "not finite", "left out"};
     return names[size_t(outcome)];
-}
-
-std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
-    const bool dragged = std::any_of(scene.groups.begin(), scene.groups.end(),
-                                     [](const Group& group) { return group.drag.any(); });
-    const bool varies = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        return field.box || !std::holds_alternative<UniformField>(*field.shape);
-    });
-    if (!dragged || !varies) return {FieldSampling::vertexSubstep};
-    return {std::begin(allSamplings), std::end(allSamplings)};
 }
 
 AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,

@@ -94,9 +94,6 @@ struct AccuracyProgress {
 AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,
                                const AccuracyDevice& device, const AccuracyProgress& progress = {});
 
-// Fields differ between samplings unless none is read or all are the same everywhere and always.
-std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
-
 // Steps by growing number: 1, 2, 4, … substeps and, beyond maxSubsteps, shorter frames.
 std::vector<Step> stepLadder(int mostSplits);
 

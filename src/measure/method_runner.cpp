@@ -3,8 +3,19 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
+#include "scene/field_kinds.h"
 
 namespace shoal::measure {
+
+std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
+    const bool dragged = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                     [](const Group& group) { return group.drag.any(); });
+    const bool varies = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
+        return field.box || !std::holds_alternative<UniformField>(*field.shape);
+    });
+    if (!dragged || !varies) return {FieldSampling::vertexSubstep};
+    return {std::begin(allSamplings), std::end(allSamplings)};
+}
 
 std::string name(const Method& method) {
     return concat(name(method.solver), ", ", name(method.sampling));

@@ -19,6 +19,9 @@ namespace shoal::measure {
 inline constexpr FieldSampling allSamplings[] = {FieldSampling::vertexSubstep, FieldSampling::vertexFrame,
                                                  FieldSampling::moleculeFrame};
 
+// Fields differ between samplings unless none is read or all are the same everywhere and always.
+std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
+
 struct Method {
     SolverKind solver = SolverKind::leapfrog;
     FieldSampling sampling = FieldSampling::vertexSubstep;
