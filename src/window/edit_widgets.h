@@ -53,8 +53,10 @@ bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles);
 
 void heading(const char* words);
 bool toggle(const char* label, bool on);  // a button that looks pressed
-void tip(const char* words);              // of what was drawn last
-std::string plain(double number);         // four digits
+// Shows a plain sentence, in lines of some 40 letters, while the pointer is on what was drawn last, whether
+// or not that can be used now.
+void tip(const std::string& words);
+std::string plain(double number);  // four digits
 
 // Draws the label of a row; the widget that is drawn next takes the rest of it.
 void beginRow(const Row& row);

@@ -245,8 +245,8 @@ Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation
     if (ImGui::RadioButton("ping-pong", current == Path::pingPong)) path = Path::pingPong;
     if (current == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
     if (ImGui::Button("Measure error")) action = Action::measure;
-    tip("A few molecules of the scene's start against the double-precision reference, with\n"
-        "this solver and these substeps. The window waits for it some seconds.");
+    tip("A few molecules of the scene's start against the double-precision reference, with this solver and "
+        "these substeps. The window waits for it some seconds.");
     if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
     return path != current ? Action::switchPath : action;
 }

@@ -51,7 +51,7 @@ const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
 bool SceneChooser::drawRow(const ListedScene& scene) {
     const ImVec2 size(points(pictureSize.x), points(pictureSize.y)), corner = ImGui::GetCursorScreenPos();
     const bool chosen = ImGui::Selectable("##scene", false, ImGuiSelectableFlags_None, ImVec2(0, size.y));
-    tip(scene.file.c_str());
+    tip(scene.file);
     const ImVec2 next = ImGui::GetCursorPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);

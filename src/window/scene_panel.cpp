@@ -159,8 +159,7 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
         ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *", file.c_str());
     else
         ImGui::TextDisabled("%s%s", file.c_str(), said_.c_str());
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s\n%s", scene.file.c_str(), unsaved ? "Not saved yet." : "As in the file.");
+    tip(concat(unsaved ? "Not saved yet.\n" : "As in the file.\n", scene.file));
     return action;
 }
 
