@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/description.h"
+#include "window/font.h"
 #include "window/interface.h"
 
 namespace shoal::window {
@@ -193,7 +194,7 @@ void tip(const std::string& words) {
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(widest * ImGui::CalcTextSize("n").x);
-    ImGui::TextUnformatted(words.c_str());
+    ImGui::TextUnformatted(inLetters(words).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
