@@ -138,8 +138,8 @@ void addLetters(const FontFile* font, float height) {
     config.FontDataOwnedByAtlas = false;
     config.FontNo = font->face;
     config.OversampleH = height > 20 ? 1 : 2;
-    atlas.AddFontFromMemoryTTF(const_cast<char*>(font->bytes.data()), int(font->bytes.size()), height, &config,
-                               lettersFor(height));
+    atlas.AddFontFromMemoryTTF(const_cast<char*>(font->bytes.data()), int(font->bytes.size()), height,
+                               &config, lettersFor(height));
 #if IMGUI_VERSION_NUM < 19200  // later ones make letters as they need them
     if (!atlas.Build()) addLetters(nullptr, height);
 #endif

@@ -9,9 +9,9 @@
 namespace shoal::window {
 
 struct FontFile {
-    std::string bytes;    // TrueType or OpenType
-    int face = 0;         // of a file that holds several
-    double line = 1;      // height, over the em square's
+    std::string bytes;  // TrueType or OpenType
+    int face = 0;       // of a file that holds several
+    double line = 1;    // height, over the em square's
 };
 
 // Nothing: there is none that can be drawn. One that is broken is told once on standard error.
