@@ -21,6 +21,7 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
       panel(running.original()),
       scenePanel(running.scene),
       camera(View::fromCamera(running.scene.camera)) {
+    camera.standOn([this](double x, double z) { return groundHeight(running.scene, x, z); });
     explanations = std::make_unique<Explanations>(context, running.scene, simulation().plan());
     reload.follow(running, true);
     checkSave(request);
