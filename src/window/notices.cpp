@@ -7,6 +7,7 @@
 #include <iostream>
 #include <utility>
 
+#include "window/font.h"
 #include "window/interface.h"
 
 namespace shoal::window {
@@ -83,6 +84,23 @@ bool showNotices(const std::string& problem, const std::string& message, float l
     ImGui::End();
     ImGui::PopStyleColor();
     return closed;
+}
+
+void showWarnings(const std::vector<Warning>& warnings, float right, float bottom) {
+    if (warnings.empty()) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(screen.x - right, screen.y - bottom), ImGuiCond_Always, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.25f, 0.18f, 0.04f, 0.94f));
+    ImGui::Begin("Warnings", nullptr, plainWindow);
+    if (ImGui::TreeNode("list", "%s", many(int64_t(warnings.size()), "warning", "warnings").c_str())) {
+        ImGui::PushTextWrapPos(std::min(points(460), screen.x - points(24)));
+        for (const Warning& warning : warnings)
+            ImGui::TextUnformatted(inLetters(text(warning)).c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::TreePop();
+    }
+    ImGui::End();
+    ImGui::PopStyleColor();
 }
 
 void StatusLine::say(const std::string& line) {

@@ -1,10 +1,13 @@
 // Messages and questions of the window, over the picture; scene_chooser.cpp asks for a scene.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <imgui.h>
 
 #include "core/error.h"
 #include "core/file_watch.h"
@@ -44,6 +47,10 @@ class Troubles {
 // why changed files do not run, as long as that is so, and a message with a button to close it. True: it was
 // pressed. Empty: nothing is shown.
 bool showNotices(const std::string& problem, const std::string& message, float left, float right);
+
+// Folded until the user unfolds it, from the window's right and bottom edges: what is worth telling of a
+// scene that runs all the same.
+void showWarnings(const std::vector<Warning>& warnings, float right, float bottom);
 
 // One line at the bottom.
 class StatusLine {

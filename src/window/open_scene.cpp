@@ -64,6 +64,12 @@ std::string OpenScene::saveForInspection(const Runaway& runaway) const {
     return shoal::saveForInspection(folder, running.original().file, simulation(), runaway);
 }
 
+std::vector<Warning> OpenScene::warnings() const {
+    std::vector<Warning> out = simulation().plan().warnings;
+    out.insert(out.end(), simulation().warnings().begin(), simulation().warnings().end());
+    return out;
+}
+
 View OpenScene::view() const {
     View out = camera.view();
     out.time = running.simulation().time();
