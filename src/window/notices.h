@@ -84,6 +84,12 @@ struct HelpRow {
 };
 bool showHelp(const char* title, const HelpRow* rows);
 
+// A row of a list: a picture, which `draw` draws from corner to corner, a name and some words. True: it was
+// chosen.
+using DrawPicture = std::function<void(ImDrawList& list, ImVec2 low, ImVec2 high)>;
+bool pictureRow(ImVec2 size, const DrawPicture& draw, const std::string& name, const std::string& words,
+                const std::string& tip);
+
 // A list of scenes in the middle of the window, each with its picture, where NAME.scene.png lies beside it,
 // and with what it says of itself.
 class SceneChooser {
