@@ -37,8 +37,8 @@ static void style(float line) {
     color(ImGuiCol_FrameBgHovered, 0.22f, 0.28f, 0.22f, 1);
     color(ImGuiCol_FrameBgActive, 0.26f, 0.34f, 0.25f, 1);
     color(ImGuiCol_CheckMark, 0.5f, 0.68f, 0.33f, 1);
-    color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 1);
-    color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 1);
+    color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 0.55f);  // numbers are read through it
+    color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 0.65f);
     color(ImGuiCol_PlotHistogram, 0.3f, 0.44f, 0.22f, 1);
     color(ImGuiCol_Button, 0.22f, 0.32f, 0.19f, 1);
     color(ImGuiCol_ButtonHovered, 0.3f, 0.44f, 0.25f, 1);
