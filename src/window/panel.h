@@ -8,6 +8,7 @@
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
+#include "window/gizmo.h"
 #include "window/json_rows.h"
 #include "window/key_rows.h"
 #include "window/running_scene.h"
@@ -103,10 +104,10 @@ class ScenePanel {
 
     explicit ScenePanel(const Scene& scene) { follow(scene); }
 
-    bool changed() const { return changed_; }         // in the last draw
-    void showWhole() { whole_ = true; }               // the scene, instead of its groups
-    bool holds() const { return held_.has_value(); }  // something in the picture, for the pointer
-    bool pending() const { return pending_; }         // something was edited that does not run yet
+    bool changed() const { return changed_; }      // in the last draw
+    void showWhole() { whole_ = true; }            // the scene, instead of its groups
+    bool holds() const { return gizmo_.holds(); }  // something in the picture, for the pointer
+    bool pending() const { return pending_; }      // something was edited that does not run yet
     // Edits running.scene and its choices. `unsaved`: it is not as its file. `view`: what is seen.
     Action draw(RunningScene& running, bool unsaved, const View& view);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
@@ -136,10 +137,10 @@ class ScenePanel {
     std::vector<Edited> groups_;
     std::string said_;
     bool changed_ = false;
-    bool lives_ = false;          // some group has particles, a life cycle or a school
-    bool pending_ = false;        // a rebuild, when the user releases the widget
-    bool whole_ = false;          // all that the file says is shown, instead of the groups
-    std::optional<size_t> held_;  // the handle that the pointer moves
+    bool lives_ = false;    // some group has particles, a life cycle or a school
+    bool pending_ = false;  // a rebuild, when the user releases the widget
+    bool whole_ = false;    // all that the file says is shown, instead of the groups
+    Gizmo gizmo_;           // of what is open
     struct Draft {
         JsonValue base, json;  // what the scene said, and is to say
         bool changed = false, refused = false;

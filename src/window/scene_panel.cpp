@@ -3,16 +3,14 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "core/json_build.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
-#include "window/orbit_camera.h"
+#include "window/molecule_picker.h"
 
 namespace shoal::window {
 
@@ -39,25 +37,6 @@ std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
 // To a millimetre.
 glm::dvec3 rounded(const glm::dvec3& place) {
     return glm::round(place * 1e3) / 1e3;
-}
-
-// The molecules that ship and those beside the scene, as its file names them.
-std::vector<std::string> moleculesFor(const std::string& sceneFile) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(sceneFile).parent_path();
-    std::vector<std::string> out;
-    std::error_code code;
-    for (const std::string& file : shippedMolecules())
-        out.push_back(fs::relative(file, folder, code).generic_string());
-    for (const auto& entry : fs::directory_iterator(folder, code)) {
-        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
-        std::array<char, 512> start{};
-        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
-        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
-        const std::string name = entry.path().filename().string();
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
-    return out;
 }
 
 // Sliders for the looks of a group of molecules; whether the user changed them in this frame. Colours are the
@@ -100,7 +79,7 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 
 void ScenePanel::follow(const Scene& scene) {
     pending_ = lives_ = false;
-    held_.reset();
+    gizmo_.release();
     if (refused())
         draft_->stale = true;
     else
@@ -133,7 +112,7 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
         }
     }
     ImGui::End();
-    if (action != Action::none || held_ || ImGui::IsAnyItemActive()) return action;
+    if (action != Action::none || holds() || ImGui::IsAnyItemActive()) return action;
     if (draft_ && draft_->changed) return Action::change;
     return pending_ ? Action::rebuild : Action::none;
 }
@@ -218,32 +197,17 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
     return action;
 }
 
-// Draws rings in the picture around the places of what is open in the panel. The pointer moves them across
-// the view, if they `may` move: another change in this frame moves objects in memory.
+// Handles for the places of what is open in the panel, if they `may` move: another change in this frame moves
+// objects in memory.
 bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const Projector projector(view, io.DisplaySize);
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float radius = points(9);
-    bool moved = false;
-    if (held_ && (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || *held_ >= places.size())) held_.reset();
-    for (size_t i = 0; i < places.size(); ++i) {
-        const std::optional<ImVec2> center = projector.place(places[i].position);
-        if (!center) continue;
-        const bool near = std::hypot(io.MousePos.x - center->x, io.MousePos.y - center->y) < 1.5f * radius;
-        if (near && !held_ && !io.WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held_ = i;
-        const bool lit = held_ ? *held_ == i : near && !io.WantCaptureMouse;
-        list.AddCircle(*center, radius, IM_COL32(0, 0, 0, 160), 32, points(4));
-        list.AddCircle(*center, radius, lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 190, 70, 255), 32,
-                       points(2));
-        list.AddText(ImVec2(center->x + 1.4f * radius, center->y - radius), IM_COL32(255, 255, 255, 230),
-                     inWords(places[i].key).c_str());
-        if (!may || held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
-        const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].position);
-        setMember(*places[i].object, places[i].key, toJson(rounded(to)));
-        moved = true;
-    }
-    return moved;
+    std::vector<GizmoHandle> handles;
+    for (const JsonRows::Place& place : places)
+        handles.push_back({.label = inWords(place.key), .position = place.position});
+    const std::optional<Gizmo::Change> change = gizmo_.draw(handles, view, may);
+    if (!change) return false;
+    const JsonRows::Place& place = places[change->handle];
+    setMember(*place.object, place.key, toJson(rounded(change->value.position)));
+    return true;
 }
 
 void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
