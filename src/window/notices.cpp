@@ -90,7 +90,7 @@ void showWarnings(const std::vector<Warning>& warnings, float right, float botto
     if (warnings.empty()) return;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(screen.x - right, screen.y - bottom), ImGuiCond_Always, ImVec2(1, 1));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.25f, 0.18f, 0.04f, 0.94f));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.25f, 0.18f, 0.04f, 0.98f));
     ImGui::Begin("Warnings", nullptr, plainWindow);
     if (ImGui::TreeNode("list", "%s", many(int64_t(warnings.size()), "warning", "warnings").c_str())) {
         ImGui::PushTextWrapPos(std::min(points(460), screen.x - points(24)));
@@ -165,6 +165,7 @@ void beginMiddle(const char* title, bool* open, float widest) {
     const float width = std::min(points(widest), screen.x - points(24));
     ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - points(24)));
+    ImGui::SetNextWindowBgAlpha(0.98f);  // panels that it lies on are not read through it
     ImGui::Begin(title, open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
