@@ -49,6 +49,7 @@ target_include_directories(CLI11Headers SYSTEM INTERFACE ${CLI11_INCLUDE})
 
 # Dear ImGui with its GLFW and OpenGL 3 backends.
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+find_package(Fontconfig REQUIRED)  # names the font of its letters
 
 # Decodes the images of others' models.
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)

@@ -59,6 +59,7 @@ is_glvnd() { # library, file
 shared() { # library
     case $1 in
     libstdc++.so.* | libgcc_s.so.* | libz.so.* | libpng*.so.* | libzstd.so.* | liblzma.so.*) ;;
+    libfontconfig.so.* | libfreetype.so.* | libbrotli*.so.*) ;;
     libexpat.so.* | libffi.so.* | libelf.so.* | libbsd.so.* | libmd.so.*) ;;
     libX*.so.* | libxcb*.so.* | libxkb*.so.* | libxshmfence.so.* | libwayland-*.so.*) ;;
     *) of_front "$1" ;;

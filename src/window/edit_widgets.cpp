@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/description.h"
+#include "window/font.h"
 #include "window/interface.h"
 
 namespace shoal::window {
@@ -15,10 +16,6 @@ namespace shoal::window {
 namespace {
 
 constexpr float labelWidth = 136;  // points
-
-void tipHere(const Row& row) {
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", row.tip);
-}
 
 ImGuiSliderFlags flagsOf(const Row& row) {
     return ImGuiSliderFlags_AlwaysClamp | (row.steep ? ImGuiSliderFlags_Logarithmic : 0);
@@ -33,7 +30,7 @@ bool slideShown(const Row& row, const Limit& limit, double* values, int count) {
     const double least = limit.least * row.scale, most = limit.most * row.scale;
     const bool changed = ImGui::SliderScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count,
                                               &least, &most, row.format, flagsOf(row));
-    tipHere(row);
+    tip(row.tip);
     return changed;
 }
 
@@ -55,7 +52,7 @@ Limit limitOf(const Key& key) {
 void beginRow(const Row& row) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label);
-    if (ImGui::IsItemHovered() && *row.tip) ImGui::SetTooltip("%s", row.tip);
+    tip(row.tip);
     besideLabel();
     ImGui::SetNextItemWidth(-1);
 }
@@ -76,7 +73,7 @@ bool slide(const Row& row, const Limit& limit, int& value) {
     beginRow(row);
     const int least = int(limit.least), most = int(limit.most);
     const bool changed = ImGui::SliderInt(hidden(row).c_str(), &value, least, most, row.format, flagsOf(row));
-    tipHere(row);
+    tip(row.tip);
     return changed;
 }
 
@@ -101,20 +98,20 @@ bool drag(const Row& row, const Limit& limit, double* values, int count, double 
         beginRow(row);
     } else {
         ImGui::TextUnformatted(row.label);
-        tipHere(row);
+        tip(row.tip);
         ImGui::SetNextItemWidth(-1);
     }
     const bool changed =
         ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count, float(speed),
                            &limit.least, &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
-    tipHere(row);
+    tip(row.tip);
     return changed;
 }
 
 bool tick(const Row& row, bool& value) {
     beginRow(row);
     const bool changed = ImGui::Checkbox(hidden(row).c_str(), &value);
-    tipHere(row);
+    tip(row.tip);
     return changed;
 }
 
@@ -128,7 +125,7 @@ bool type(const Row& row, std::string& text) {
     std::array<char, 1024> shown{};
     (mine ? typed : text).copy(shown.data(), shown.size() - 1);
     ImGui::InputText(hidden(row).c_str(), shown.data(), shown.size());
-    tipHere(row);
+    tip(row.tip);
     if (ImGui::IsItemActive()) {
         typing = id;
         typed = shown.data();
@@ -196,8 +193,15 @@ bool toggle(const char* label, bool on) {
     return pressed;
 }
 
-void tip(const char* words) {
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words);
+void tip(const std::string& words) {
+    constexpr float widest = 40;  // letters
+    if (words.empty() || ImGui::IsItemActive() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(widest * ImGui::CalcTextSize("n").x);
+    ImGui::TextUnformatted(inLetters(words).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 std::string plain(double number) {

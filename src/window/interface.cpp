@@ -12,16 +12,20 @@
 
 namespace shoal::window {
 
-static constexpr float fontHeight = 13;  // points: the size at which the built-in font was drawn
+// Points: the size at which the built-in font was drawn, and the em square of others.
+static constexpr double builtInHeight = 13, em = 12;
 
-static void style(float unitsPerPoint) {
+static float unitsPerPoint = 1;  // of the font as it is now
+
+// `line`: points, of the font. Rows are as far apart as with the built-in font, as far as there is room.
+static void style(float line) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
     ImGui::StyleColorsDark();
     style.WindowRounding = 6;
     style.FrameRounding = style.GrabRounding = 4;
     style.WindowPadding = ImVec2(12, 10);
-    style.ItemSpacing = ImVec2(8, 5);
+    style.ItemSpacing = ImVec2(8, std::clamp(18 - line, 3.0f, 5.0f));
     style.WindowBorderSize = 0;
     const auto color = [&](ImGuiCol which, float r, float g, float b, float a) {
         style.Colors[which] = ImVec4(r, g, b, a);
@@ -33,8 +37,8 @@ static void style(float unitsPerPoint) {
     color(ImGuiCol_FrameBgHovered, 0.22f, 0.28f, 0.22f, 1);
     color(ImGuiCol_FrameBgActive, 0.26f, 0.34f, 0.25f, 1);
     color(ImGuiCol_CheckMark, 0.5f, 0.68f, 0.33f, 1);
-    color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 1);
-    color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 1);
+    color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 0.55f);  // numbers are read through it
+    color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 0.65f);
     color(ImGuiCol_PlotHistogram, 0.3f, 0.44f, 0.22f, 1);
     color(ImGuiCol_Button, 0.22f, 0.32f, 0.19f, 1);
     color(ImGuiCol_ButtonHovered, 0.3f, 0.44f, 0.25f, 1);
@@ -46,7 +50,8 @@ static void style(float unitsPerPoint) {
     style.ScaleAllSizes(unitsPerPoint);
 }
 
-Interface::Interface(GLFWwindow* window, std::optional<double> scale) : window_(window), scale_(scale) {
+Interface::Interface(GLFWwindow* window, std::optional<double> scale)
+    : window_(window), scale_(scale), outlines_(systemFont()) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
     ImGui_ImplGlfw_InitForOpenGL(window, false);
@@ -78,13 +83,12 @@ Interface::Density Interface::density() const {
 
 void Interface::makeFont(const Density& density) {
     made_ = density;
-    style(density.unitsPerPoint);
-    ImGuiIO& io = ImGui::GetIO();
-    ImFontConfig font;
-    font.SizePixels = std::round(fontHeight * density.unitsPerPoint * density.pixelsPerUnit);
-    io.Fonts->Clear();
-    io.Fonts->AddFontDefault(&font);
-    io.FontGlobalScale = 1 / density.pixelsPerUnit;
+    unitsPerPoint = density.unitsPerPoint;
+    const float pixelsPerPoint = density.unitsPerPoint * density.pixelsPerUnit;
+    const float height = std::round(float(outlines_ ? em * outlines_->line : builtInHeight) * pixelsPerPoint);
+    style(height / pixelsPerPoint);
+    addLetters(outlines_ ? &*outlines_ : nullptr, height);
+    ImGui::GetIO().FontGlobalScale = 1 / density.pixelsPerUnit;
 #if IMGUI_VERSION_NUM < 19200  // later ones make it as they need it
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -92,7 +96,7 @@ void Interface::makeFont(const Density& density) {
 }
 
 float points(float count) {
-    return std::round(count * ImGui::GetFontSize() / fontHeight);
+    return std::round(count * unitsPerPoint);
 }
 
 void Interface::begin() {

@@ -2,7 +2,7 @@
 // pointer and keys (input.cpp).
 //
 // Panels are laid out in points: pixels of a screen of ordinary density. On a denser one, and with --scale, a
-// point is more pixels, and the font is made anew at that size, so that letters stay sharp.
+// point is more pixels, and the letters (font.h) are made anew at that size, so that they stay sharp.
 #pragma once
 
 #include <deque>
@@ -15,6 +15,8 @@
 #include <vector>
 
 #include <imgui.h>
+
+#include "window/font.h"
 
 struct GLFWwindow;
 
@@ -94,7 +96,8 @@ class Interface {
     GLFWwindow* window_;
     std::unique_ptr<Input> input_;
     std::optional<double> scale_;
-    Density made_;  // what font and style are made for
+    std::optional<FontFile> outlines_;  // nothing: the built-in font
+    Density made_;                      // what font and style are made for
 };
 
 constexpr double leastScale = 0.5, mostScale = 4;  // of --scale

@@ -21,15 +21,6 @@ namespace {
 using Kind = Key::Kind;
 using Json = JsonValue::Kind;
 
-// A number, or numbers in a list.
-std::vector<double> numbersOf(const JsonValue& value) {
-    std::vector<double> out;
-    if (value.kind == Json::number) out.push_back(value.number);
-    for (const JsonValue& item : value.items)
-        if (item.kind == Json::number) out.push_back(item.number);
-    return out.size() == std::max<size_t>(1, value.items.size()) ? out : std::vector<double>();
-}
-
 JsonValue asJson(const std::vector<double>& numbers, bool list) {
     return list ? toJson(numbers) : JsonValue::makeNumber(numbers[0]);
 }
@@ -74,10 +65,35 @@ std::string titleOf(const JsonValue& element, size_t index) {
 
 // ---- New elements
 
-JsonValue JsonRows::newElement(const Key& key, const JsonValue& list) const {
-    if (key.name == "groups") return smallestGroup(list, choices_("molecule").front());
-    if (key.name == "emitters") return newEmitter(list);
-    return smallestObject(*key.objects[0], text());
+void JsonRows::begin(const Scene& scene) {
+    places_.clear();
+    if (!scene_ || scene_->file != scene.file) molecules_.list(scene.file);
+    scene_ = &scene;
+}
+
+// Draws the button that adds to a list, and what there is to choose from.
+std::optional<JsonValue> JsonRows::addedTo(const Key& key, const JsonValue& list) {
+    std::optional<JsonValue> out;
+    if (key.name == "groups") {
+        if (const auto molecule = molecules_.add("Add")) out = groupOf(list, *molecule, *scene_);
+        return out;
+    }
+    const Description& element = *key.objects[0];
+    const Key* kinds = variantOf(element);
+    if (ImGui::SmallButton("Add")) {
+        if (kinds)
+            ImGui::OpenPopup("kinds");
+        else
+            out = key.name == "emitters" ? newEmitter(list) : smallestObject(element, text());
+    }
+    tip(element.sentence());
+    if (!kinds || !ImGui::BeginPopup("kinds")) return out;
+    for (const Description* kind : kinds->objects) {
+        if (ImGui::Selectable(kind->name().c_str())) out = smallestObject(element, *kind, text());
+        tip(kind->sentence());
+    }
+    ImGui::EndPopup();
+    return out;
 }
 
 TextOf JsonRows::text() const {
@@ -103,26 +119,6 @@ bool JsonRows::draw(const Description& keys, JsonValue& object) {
         if (!meansSomething(keys, key, object)) leaveOut(object, key.name);
     addNeeded(keys, text(), object);
     return true;
-}
-
-// Where something stands, by the words that scenes have for it.
-static bool isPlace(const Key& key) {
-    constexpr const char* names[] = {"position", "center", "point", "origin", "from", "to"};
-    return key.kind == Kind::vector3 &&
-           std::find(std::begin(names), std::end(names), key.name) != std::end(names);
-}
-
-void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& object) {
-    const auto add = [&](JsonValue& parent, const std::string& name, const JsonValue& numbers) {
-        const std::vector<double> coordinates = numbersOf(numbers);
-        if (coordinates.size() == 3)
-            places_.push_back({&parent, name, {coordinates[0], coordinates[1], coordinates[2]}});
-    };
-    if (isPlace(key)) add(object, key.name, value);
-    if (key.kind != Kind::box || !object.find(key.name)) return;
-    JsonValue& box = memberOf(object, key.name);
-    for (const char* corner : {"low", "high"})
-        if (const JsonValue* numbers = box.find(corner)) add(box, corner, *numbers);
 }
 
 // The row of a key changes what the object says of it, or whether it says anything.
@@ -222,17 +218,8 @@ bool JsonRows::drawPresent(const Description& keys, const Key& key, JsonValue& v
 
 // An axis and an angle, whether the file has these or a quaternion.
 bool JsonRows::drawRotation(const Key& key, JsonValue& value, const std::string& label) {
-    glm::dvec3 axis(0, 1, 0);
-    double angle = 0;  // degrees
-    if (const std::vector<double> q = numbersOf(value); q.size() == 4) {
-        const glm::dvec3 imaginary(q[0], q[1], q[2]);
-        if (glm::length(imaginary) > 0) axis = glm::normalize(imaginary);
-        angle = 2 * std::atan2(glm::length(imaginary), q[3]) * degrees;
-    }
-    if (const JsonValue* given = value.find("axis"))
-        if (const std::vector<double> components = numbersOf(*given); components.size() == 3)
-            axis = {components[0], components[1], components[2]};
-    if (const JsonValue* given = value.find("angle")) angle = given->number * degrees;
+    auto [axis, angle] = axisAndAngle(value);
+    angle *= degrees;
     const std::string axisLabel = label.empty() ? "axis" : label + ", axis";
     const char* sentence = key.says.sentence.c_str();
     bool changed = drag({axisLabel.c_str(), sentence, "%.5g"}, {-1e3, 1e3}, &axis.x, 3, 0.01);
@@ -348,6 +335,11 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
 
 bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& label) {
     const Row row{label.c_str(), key.says.sentence.c_str()};
+    if (key.name == "molecule" && scene_) {
+        const std::optional<std::string> chosen = molecules_.choose(row, value.text);
+        if (chosen) value = toJson(*chosen);
+        return chosen.has_value();
+    }
     const std::vector<std::string> words = choices_(key.name);
     return words.empty() ? type(row, value.text) : drawWord(row, value, words);
 }
@@ -399,20 +391,11 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
     std::optional<std::pair<size_t, JsonValue>> added;  // where, and what
     if (copied) added.emplace(*copied + 1, list.items[*copied]);
     if (removed) list.items.erase(list.items.begin() + std::ptrdiff_t(*removed)), changed = true;
-    const Key* kinds = variantOf(element);
-    if (ImGui::SmallButton("Add")) {
-        if (kinds) ImGui::OpenPopup("kinds");
-        if (colors) addColorKey(list), changed = true;
-        if (!kinds && !colors) added.emplace(list.items.size(), newElement(key, list));
-    }
-    tip(element.sentence().c_str());
-    if (kinds && ImGui::BeginPopup("kinds")) {
-        for (const Description* kind : kinds->objects) {
-            if (ImGui::Selectable(kind->name().c_str()))
-                added.emplace(list.items.size(), smallestObject(element, *kind, text()));
-            tip(kind->sentence().c_str());
-        }
-        ImGui::EndPopup();
+    if (colors) {
+        if (ImGui::SmallButton("Add")) addColorKey(list), changed = true;
+        tip(element.sentence());
+    } else if (std::optional<JsonValue> item = addedTo(key, list)) {
+        added.emplace(list.items.size(), std::move(*item));
     }
     if (added) {
         auto& [index, item] = *added;

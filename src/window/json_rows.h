@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <imgui.h>
@@ -14,6 +15,8 @@
 #include "core/json.h"
 #include "core/smallest.h"
 #include "window/edit_widgets.h"
+#include "window/gizmo.h"
+#include "window/molecule_picker.h"
 
 namespace shoal::window {
 
@@ -33,10 +36,11 @@ class JsonRows {
     struct Place {
         JsonValue* object;  // that has the key; until something changes
         std::string key;
-        glm::dvec3 position;  // m
+        GizmoHandle handle;  // with the size and the turn that stand beside it
     };
     const std::vector<Place>& places() const { return places_; }
-    void forgetPlaces() { places_.clear(); }  // before a frame
+    static void move(const Place& place, const GizmoHandle& to);
+    void begin(const Scene& scene);  // a frame, in which rows of the scene are drawn
 
   private:
     bool drawKey(const Description& keys, const Key& key, JsonValue& object);
@@ -50,11 +54,13 @@ class JsonRows {
     bool drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label);
     bool drawText(const Key& key, JsonValue& value, const std::string& label);
     bool drawKind(const Key& key, JsonValue& object);
-    JsonValue newElement(const Key& key, const JsonValue& list) const;
+    std::optional<JsonValue> addedTo(const Key& key, const JsonValue& list);
     const Slider* sliderOf(const Key& key, const std::vector<double>& numbers);
     TextOf text() const;  // the first choice, or the key's name
 
     Choices choices_;
+    const Scene* scene_ = nullptr;
+    MoleculePicker molecules_;
     std::vector<Place> places_;
     bool inList_ = false;  // an element is being drawn
     ImGuiID fresh_ = 0;    // a node that was added, which opens
@@ -62,6 +68,9 @@ class JsonRows {
     std::map<ImGuiID, Slider> sliders_;
     std::map<ImGuiID, glm::dvec2> angles_;  // rad, of directions
 };
+
+// An axis and an angle, rad, whether a file has these or a quaternion.
+std::pair<glm::dvec3, double> axisAndAngle(const JsonValue& rotation);
 
 // "sphere", or the name of an element of a list, or its number.
 std::string titleOf(const JsonValue& element, size_t index);

@@ -1,12 +1,20 @@
 #include "window/new_elements.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "core/json_build.h"
+#include "molecule/molecule_file.h"
+#include "run/data_paths.h"
+#include "window/orbit_camera.h"
 #include "window/scene_document.h"
 
 namespace shoal::window {
+
+namespace fs = std::filesystem;
 
 std::string freeName(const JsonValue& list, const std::string& wanted) {
     const auto taken = [&](const std::string& name) {
@@ -21,11 +29,71 @@ std::string freeName(const JsonValue& list, const std::string& wanted) {
     return out;
 }
 
-JsonValue smallestGroup(const JsonValue& groups, const std::string& molecule) {
-    const JsonValue box = object(key("low", glm::dvec3(-1, 0.5, -1)), key("high", glm::dvec3(1, 2.5, 1)));
-    return object(key("name", freeName(groups, std::filesystem::path(molecule).stem().string())),
-                  key("molecule", molecule), key("place", object(key("on", "volume"), key("box", box))),
-                  key("count", 100));
+std::vector<std::string> shippedMolecules() {
+    std::vector<std::string> files;
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
+            files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::string> moleculesFor(const std::string& sceneFile) {
+    const fs::path folder = fs::absolute(sceneFile).parent_path();
+    std::vector<std::string> out;
+    std::error_code code;
+    for (const std::string& file : shippedMolecules())
+        out.push_back(fs::relative(file, folder, code).generic_string());
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
+        std::array<char, 512> start{};
+        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
+        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
+        const std::string name = entry.path().filename().string();
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
+}
+
+std::string besideScene(const std::string& molecule, const std::string& sceneFile) {
+    return (fs::absolute(sceneFile).parent_path() / molecule).lexically_normal().string();
+}
+
+JsonValue groupOf(const JsonValue& groups, const std::string& molecule, const Scene& scene) {
+    JsonValue out = object(key("name", freeName(groups, fs::path(molecule).stem().string())),
+                           key("molecule", molecule), key("count", 100));
+    Molecule shape;
+    try {
+        shape = readMolecule(besideScene(molecule, scene.file));
+    } catch (const Error&) {
+        return out;  // whoever reads the group will say why
+    }
+    glm::dvec3 least = shape.vertices[0].position, most = least;
+    for (const Vertex& vertex : shape.vertices)
+        least = glm::min(least, vertex.position), most = glm::max(most, vertex.position);
+    const bool ball = shape.triangles.empty();
+    const double size = glm::length(most - least) + (ball ? shape.material.pointSize : 0);
+    const double side = std::stod(formatted("%.2g", 10 * size));  // a hundred of them lie apart
+    const glm::dvec3 target = scene.camera.target;
+    const double ground = groundHeight(scene, target.x, target.z);
+    const double bottom = std::isfinite(ground) ? ground + size : target.y - side / 2;
+    const auto rounded = [](const glm::dvec3& p) { return glm::round(p * 1e3) / 1e3; };
+    const glm::dvec3 low = rounded({target.x - side / 2, bottom, target.z - side / 2});
+    JsonValue place =
+        object(key("on", "volume"), key("box", object(key("low", low), key("high", rounded(low + side)))));
+    if (!ball) place.add("turn", JsonValue::makeString("any"));
+    setMember(out, "place", std::move(place));
+    if (shape.hasPins()) setMember(out, "held", JsonValue::makeBoolean(false));
+    const bool swims = std::any_of(shape.springs.begin(), shape.springs.end(),
+                                   [](const Spring& spring) { return spring.actuation.has_value(); });
+    // as in the scenes that ship: leaves, fry, snow
+    const double along = swims ? 1 : 0.9, across = swims ? 40 : 9;
+    setMember(out, "drag",
+              ball ? JsonValue::makeNumber(3) : object(key("normal", across), key("tangent", along)));
+    return out;
 }
 
 JsonValue newEmitter(const JsonValue& emitters) {
@@ -35,8 +103,8 @@ JsonValue newEmitter(const JsonValue& emitters) {
         leaveOut(like, "name");
         return like;
     }
-    return object(key("from", "point"), key("position", glm::dvec3(0, 1, 0)),
-                  key("rate", 20), key("speed", glm::dvec2(1, 2)));
+    return object(key("from", "point"), key("position", glm::dvec3(0, 1, 0)), key("rate", 20),
+                  key("speed", glm::dvec2(1, 2)));
 }
 
 }  // namespace shoal::window

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <utility>
 
+#include "window/font.h"
 #include "window/interface.h"
 
 namespace shoal::window {
@@ -85,6 +86,23 @@ bool showNotices(const std::string& problem, const std::string& message, float l
     return closed;
 }
 
+void showWarnings(const std::vector<Warning>& warnings, float right, float bottom) {
+    if (warnings.empty()) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(screen.x - right, screen.y - bottom), ImGuiCond_Always, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.25f, 0.18f, 0.04f, 0.98f));
+    ImGui::Begin("Warnings", nullptr, plainWindow);
+    if (ImGui::TreeNode("list", "%s", many(int64_t(warnings.size()), "warning", "warnings").c_str())) {
+        ImGui::PushTextWrapPos(std::min(points(460), screen.x - points(24)));
+        for (const Warning& warning : warnings)
+            ImGui::TextUnformatted(inLetters(text(warning)).c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::TreePop();
+    }
+    ImGui::End();
+    ImGui::PopStyleColor();
+}
+
 void StatusLine::say(const std::string& line) {
     line_ = line;
     saidAt_ = ImGui::GetTime();
@@ -147,6 +165,7 @@ void beginMiddle(const char* title, bool* open, float widest) {
     const float width = std::min(points(widest), screen.x - points(24));
     ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - points(24)));
+    ImGui::SetNextWindowBgAlpha(0.98f);  // panels that it lies on are not read through it
     ImGui::Begin(title, open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();

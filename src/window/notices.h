@@ -1,10 +1,13 @@
 // Messages and questions of the window, over the picture; scene_chooser.cpp asks for a scene.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <imgui.h>
 
 #include "core/error.h"
 #include "core/file_watch.h"
@@ -45,6 +48,10 @@ class Troubles {
 // pressed. Empty: nothing is shown.
 bool showNotices(const std::string& problem, const std::string& message, float left, float right);
 
+// Folded until the user unfolds it, from the window's right and bottom edges: what is worth telling of a
+// scene that runs all the same.
+void showWarnings(const std::vector<Warning>& warnings, float right, float bottom);
+
 // One line at the bottom.
 class StatusLine {
   public:
@@ -76,6 +83,12 @@ struct HelpRow {
     const char* what;
 };
 bool showHelp(const char* title, const HelpRow* rows);
+
+// A row of a list: a picture, which `draw` draws from corner to corner, a name and some words. True: it was
+// chosen.
+using DrawPicture = std::function<void(ImDrawList& list, ImVec2 low, ImVec2 high)>;
+bool pictureRow(ImVec2 size, const DrawPicture& draw, const std::string& name, const std::string& words,
+                const std::string& tip);
 
 // A list of scenes in the middle of the window, each with its picture, where NAME.scene.png lies beside it,
 // and with what it says of itself.

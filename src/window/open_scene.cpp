@@ -22,6 +22,7 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
       panel(running.scene()),
       scenePanel(running.scene()),
       camera(View::fromCamera(running.scene().camera)) {
+    camera.standOn([this](double x, double z) { return groundHeight(running.scene(), x, z); });
     explanations = std::make_unique<Explanations>(context, running.scene(), simulation().plan());
     reload.follow(running, true);
     checkSave(request);
@@ -71,6 +72,12 @@ void OpenScene::saveIfAsked(bool end) {
 std::string OpenScene::saveForInspection(const Runaway& runaway) const {
     const std::string folder = std::filesystem::path(request.save).parent_path().string();
     return shoal::saveForInspection(folder, running.document().file(), simulation(), runaway);
+}
+
+std::vector<Warning> OpenScene::warnings() const {
+    std::vector<Warning> out = simulation().plan().warnings;
+    out.insert(out.end(), simulation().warnings().begin(), simulation().warnings().end());
+    return out;
 }
 
 View OpenScene::view() const {

@@ -47,8 +47,9 @@ struct OpenScene {
     // Its numbers, from `left` on and `bottom` above the window's bottom (in the interface's units), and a
     // ring around it.
     void drawPicked(float left, float bottom);
-    View view() const;                   // of now
-    void drawPicture(double lineWidth);  // pixels, of springs and arrows
+    std::vector<Warning> warnings() const;  // of the scene as it runs
+    View view() const;                      // of now
+    void drawPicture(double lineWidth);     // pixels, of springs and arrows
 
   private:
     int builds_ = 1;  // of `running`, that were followed

@@ -2,8 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "scene/known_colliders.h"
 
 namespace shoal::window {
+
+double groundHeight(const Scene& scene, double x, double z) {
+    double out = -std::numeric_limits<double>::infinity();
+    for (const Collider& collider : scene.colliders) {
+        if (collider.path) continue;
+        const auto* plane = kindOf<PlaneCollider>(*collider.shape);
+        const auto* field = kindOf<HeightFieldCollider>(*collider.shape);
+        constexpr double facesUp = 0.5;
+        if (plane && plane->normal.y > facesUp) {
+            const glm::dvec3 arm = glm::dvec3(x, 0, z) - glm::dvec3(plane->point.x, 0, plane->point.z);
+            out = std::max(out, plane->point.y - glm::dot(plane->normal, arm) / plane->normal.y);
+        }
+        if (!field) continue;
+        const glm::dvec2 cells(field->columns - 1, field->rows - 1);
+        const glm::dvec2 place = (glm::dvec2(x, z) - field->low) / (field->high - field->low) * cells;
+        if (!(place.x >= 0 && place.y >= 0 && place.x <= cells.x && place.y <= cells.y)) continue;
+        for (int corner = 0; corner < 4; ++corner) {  // of the cell: no lower than the surface
+            const size_t column = size_t(corner & 1 ? std::ceil(place.x) : std::floor(place.x));
+            const size_t row = size_t(corner & 2 ? std::ceil(place.y) : std::floor(place.y));
+            out = std::max(out, field->level + double(field->heights[row * size_t(field->columns) + column]));
+        }
+    }
+    return out;
+}
 
 static constexpr double steepest = 1.55;  // rad: short of the poles, where up is undefined
 
@@ -24,11 +51,13 @@ void OrbitCamera::start(const View& view) {
 void OrbitCamera::lookFrom(double azimuth, double elevation) {
     azimuth_ = azimuth;
     elevation_ = std::clamp(elevation, -steepest, steepest);
+    rise();
 }
 
 void OrbitCamera::turn(double dx, double dy) {
     azimuth_ -= 4 * dx;
     elevation_ = std::clamp(elevation_ + 4 * dy, -steepest, steepest);
+    rise();
 }
 
 void OrbitCamera::pan(double dx, double dy) {
@@ -42,12 +71,31 @@ void OrbitCamera::zoom(double steps) {
     distance_ = std::clamp(distance_ * std::pow(0.9, steps), 0.02, 1e5);
 }
 
+double OrbitCamera::least(const glm::dvec3& eye) const {
+    constexpr double clearance = 0.02;  // of the distance to the target
+    const auto height = [&](const glm::dvec3& place) { return ground_(place.x, place.z); };
+    if (!ground_ || start_.eye.y < height(start_.eye)) return -std::numeric_limits<double>::infinity();
+    return height(eye) + clearance * distance_;
+}
+
+// Where a turn ends, so that the way back begins there. The ground is another at another place: a second look
+// comes close, and view() takes the rest.
+void OrbitCamera::rise() {
+    for (int look = 0; look < 2; ++look) {
+        const double level = std::cos(elevation_);
+        const glm::dvec3 arm(level * std::sin(azimuth_), std::sin(elevation_), level * std::cos(azimuth_));
+        const double sine = (least(target_ + distance_ * arm) - target_.y) / distance_;
+        if (arm.y < sine) elevation_ = std::clamp(std::asin(std::min(sine, 1.0)), elevation_, steepest);
+    }
+}
+
 View OrbitCamera::view() const {
     View out = start_;
     const double level = std::cos(elevation_);
     out.target = target_;
     out.eye = target_ + distance_ * glm::dvec3(level * std::sin(azimuth_), std::sin(elevation_),
                                                level * std::cos(azimuth_));
+    out.eye.y = std::max(out.eye.y, least(out.eye));
     return out;
 }
 

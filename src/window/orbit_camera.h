@@ -1,17 +1,25 @@
 // How a window looks at a scene, and where in the window a place of the scene is.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <imgui.h>
 
 #include "render/view.h"
+#include "scene/scene.h"
 
 namespace shoal::window {
 
-// Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms.
+// y of the highest ground at x and z, m: of planes that face up and of height fields that stand still;
+// minus infinity: there is none.
+double groundHeight(const Scene& scene, double x, double z);
+
+// Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms. The eye
+// stays above the ground, unless it starts below.
 class OrbitCamera {
   public:
+    using Ground = std::function<double(double x, double z)>;  // as groundHeight()
     explicit OrbitCamera(const View& start) : start_(start) { reset(); }
 
     void turn(double dx, double dy);  // in window heights
@@ -23,9 +31,14 @@ class OrbitCamera {
     void reset();
     void start(const View& view);  // where reset() goes; goes there when it is another place than before
     View view() const;
+    void standOn(Ground ground) { ground_ = std::move(ground); }
 
   private:
+    double least(const glm::dvec3& eye) const;  // y, above the ground
+    void rise();                                // as far as the eye would be below that
+
     View start_;
+    Ground ground_;
     glm::dvec3 target_{0};
     double distance_ = 1, azimuth_ = 0, elevation_ = 0;  // m, rad
 };

@@ -3,49 +3,17 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "compile/generate.h"
 #include "core/json_build.h"
-#include "run/data_paths.h"
 #include "scene/force_kinds.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
+#include "window/new_elements.h"
 
 namespace shoal::window {
-
-std::vector<std::string> shippedMolecules() {
-    std::vector<std::string> files;
-    std::error_code code;
-    for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {
-        const std::string name = entry.path().filename().string();
-        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
-            files.push_back(entry.path().string());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-std::vector<std::string> moleculesFor(const std::string& sceneFile) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(sceneFile).parent_path();
-    std::vector<std::string> out;
-    std::error_code code;
-    for (const std::string& file : shippedMolecules())
-        out.push_back(fs::relative(file, folder, code).generic_string());
-    for (const auto& entry : fs::directory_iterator(folder, code)) {
-        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
-        std::array<char, 512> start{};
-        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
-        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
-        const std::string name = entry.path().filename().string();
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
-    return out;
-}
 
 Controls::Controls(const Plan& plan)
     : gravity(plan.gravity),
@@ -325,8 +293,8 @@ Panel::Action Panel::drawMethod(Controls& controls, const RunningScene& running)
     if (ImGui::RadioButton("ping-pong", current == Path::pingPong)) path = Path::pingPong;
     if (current == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
     if (ImGui::Button("Measure error")) action = Action::measure;
-    tip("A few molecules of the scene's start against the double-precision reference, with\n"
-        "this solver and these substeps. The window waits for it some seconds.");
+    tip("A few molecules of the scene's start against the double-precision reference, with this solver and "
+        "these substeps. The window waits for it some seconds.");
     if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
     return path != current ? Action::switchPath : action;
 }

@@ -9,14 +9,11 @@
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
+#include "window/gizmo.h"
 #include "window/json_rows.h"
 #include "window/running_scene.h"
 
 namespace shoal::window {
-
-std::vector<std::string> shippedMolecules();  // files
-// The molecules that ship and those beside a scene, as its file names them.
-std::vector<std::string> moleculesFor(const std::string& sceneFile);
 
 // ---- How the scene runs
 
@@ -107,8 +104,8 @@ class ScenePanel {
 
     explicit ScenePanel(const Scene& scene);
 
-    void showWhole() { whole_ = true; }               // the scene, instead of its groups
-    bool holds() const { return held_.has_value(); }  // something in the picture, for the pointer
+    void showWhole() { whole_ = true; }            // the scene, instead of its groups
+    bool holds() const { return gizmo_.holds(); }  // something in the picture, for the pointer
     // `unsaved`: it is not as its file. `view`: what is seen.
     Action draw(RunningScene& running, bool unsaved, const View& view);
     void follow() { stale_ = true; }  // the document says something else
@@ -138,11 +135,11 @@ class ScenePanel {
     };
     std::map<size_t, Counted> counted_;  // by the group in the plan
     std::string said_;
-    bool lives_ = false;          // some group has particles, a life cycle or a school
-    bool whole_ = false;          // all that the file says is shown, instead of the groups
-    bool stale_ = false;          // the document has changed since the draft was taken
-    std::optional<size_t> held_;  // the handle that the pointer moves
-    std::string broken_;          // why what is held cannot run as it is
+    bool lives_ = false;  // some group has particles, a life cycle or a school
+    bool whole_ = false;  // all that the file says is shown, instead of the groups
+    bool stale_ = false;  // the document has changed since the draft was taken
+    Gizmo gizmo_;         // of what is open
+    std::string broken_;  // why what is held cannot run as it is
     struct Draft {
         JsonValue base, json;  // what the scene said, and is to say
         bool changed = false, refused = false;

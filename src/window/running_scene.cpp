@@ -230,7 +230,7 @@ void RunningScene::add(const std::string& file) {
     const char* list = molecule ? "groups" : "models";
     const JsonValue* existing = root.find(list);
     JsonValue longer = existing ? *existing : JsonValue::makeArray();
-    longer.items.push_back(molecule ? smallestGroup(longer, name) : object(key("file", name)));
+    longer.items.push_back(molecule ? groupOf(longer, name, scene_) : object(key("file", name)));
     setMember(root, list, std::move(longer));
     change(root);
 }

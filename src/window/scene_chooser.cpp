@@ -25,8 +25,6 @@ void SceneChooser::refused(const std::string& file) {
     refused_.watch(filesOf(file));
 }
 
-static constexpr glm::vec2 pictureSize(128, 72);  // points
-
 const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
     auto found = pictures_.find(file);
     if (found == pictures_.end()) {
@@ -48,24 +46,19 @@ const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
     return found->second ? &found->second : nullptr;
 }
 
-bool SceneChooser::drawRow(const ListedScene& scene) {
-    const ImVec2 size(points(pictureSize.x), points(pictureSize.y)), corner = ImGui::GetCursorScreenPos();
-    const bool chosen = ImGui::Selectable("##scene", false, ImGuiSelectableFlags_None, ImVec2(0, size.y));
-    tip(scene.file.c_str());
+bool pictureRow(ImVec2 size, const DrawPicture& draw, const std::string& name, const std::string& words,
+                const std::string& says) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const bool chosen = ImGui::Selectable("##row", false, ImGuiSelectableFlags_None, ImVec2(0, size.y));
+    tip(says);
     const ImVec2 next = ImGui::GetCursorPos();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
-    if (const gpu::Texture* picture = pictureOf(scene.file))
-        list.AddImage(ImTextureID(intptr_t(picture->id())), corner, end);
-    else
-        list.AddRectFilled(corner, end, IM_COL32(70, 76, 82, 255));
+    draw(*ImGui::GetWindowDrawList(), corner, end);
     ImGui::SetCursorScreenPos(ImVec2(end.x + points(10), corner.y));
     ImGui::BeginGroup();
-    ImGui::TextUnformatted(scene.name.c_str());
-    const std::string shown =
-        scene.comment.empty() ? fs::path(scene.file).lexically_relative(folder_).string() : scene.comment;
+    ImGui::TextUnformatted(name.c_str());
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.72f, 0.76f, 0.74f, 1));
-    ImGui::TextWrapped("%s", shown.c_str());
+    ImGui::TextWrapped("%s", words.c_str());
     ImGui::PopStyleColor();
     ImGui::EndGroup();
     // A long description makes a row higher.
@@ -73,6 +66,18 @@ bool SceneChooser::drawRow(const ListedScene& scene) {
     ImGui::SetCursorPos(ImVec2(next.x, next.y + std::max(0.0f, below)));
     ImGui::Dummy(ImVec2(0, 0));
     return chosen;
+}
+
+bool SceneChooser::drawRow(const ListedScene& scene) {
+    const auto picture = [&](ImDrawList& list, ImVec2 low, ImVec2 high) {
+        if (const gpu::Texture* texture = pictureOf(scene.file))
+            list.AddImage(ImTextureID(intptr_t(texture->id())), low, high);
+        else
+            list.AddRectFilled(low, high, IM_COL32(70, 76, 82, 255));
+    };
+    const std::string place = fs::path(scene.file).lexically_relative(folder_).string();
+    return pictureRow(ImVec2(points(128), points(72)), picture, scene.name,
+                      scene.comment.empty() ? place : scene.comment, scene.file);
 }
 
 std::string SceneChooser::draw(bool mustChoose, const std::string& message) {

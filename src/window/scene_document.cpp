@@ -1,5 +1,6 @@
 #include "window/scene_document.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/file.h"
@@ -12,6 +13,14 @@ static std::string withJson(const std::string& text, const JsonValue& before, co
     std::vector<TextChange> changes;
     addChanges(text, before, before, after, changes);
     return withChanges(text, std::move(changes));
+}
+
+std::vector<double> numbersOf(const JsonValue& value) {
+    std::vector<double> out;
+    if (value.kind == JsonValue::Kind::number) out.push_back(value.number);
+    for (const JsonValue& item : value.items)
+        if (item.kind == JsonValue::Kind::number) out.push_back(item.number);
+    return out.size() == std::max<size_t>(1, value.items.size()) ? out : std::vector<double>();
 }
 
 void setMember(JsonValue& object, const std::string& key, JsonValue value) {

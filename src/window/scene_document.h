@@ -56,6 +56,7 @@ class SceneDocument {
     std::vector<Texts> undo_, redo_;
 };
 
+std::vector<double> numbersOf(const JsonValue& value);  // of one or of a list; none: it is something else
 // In place of what an object says of the key, if anything.
 void setMember(JsonValue& object, const std::string& key, JsonValue value);
 void leaveOut(JsonValue& object, const std::string& key);

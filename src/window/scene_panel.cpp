@@ -10,7 +10,6 @@
 #include "core/json_build.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
-#include "window/orbit_camera.h"
 
 namespace shoal::window {
 
@@ -43,7 +42,6 @@ glm::dvec3 rounded(const glm::dvec3& place) {
 
 ScenePanel::ScenePanel(const Scene& scene) : rows_([this](const std::string& key) { return words_[key]; }) {
     rows_.opens = {"emitters"};
-    words_["molecule"] = moleculesFor(scene.file);
     for (const Group& group : scene.groups)
         lives_ |= group.life || group.particle || group.school;
 }
@@ -61,7 +59,7 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
         const Action asked = drawSteps(running, view);
         if (action == Action::none) action = asked;
     }
-    rows_.forgetPlaces();
+    rows_.begin(running.scene());
     const bool edited = whole_ ? rows_.draw(describe(&running.scene()), draft_->json) : drawGroups(running);
     ImGui::End();
     const bool moved = moveHandles(rows_.places(), view, !edited);
@@ -70,7 +68,7 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
         said_.clear();
         goLive(running);
     }
-    const bool holds = held_ || ImGui::IsAnyItemActive();
+    const bool holds = gizmo_.holds() || ImGui::IsAnyItemActive();
     if (holds && !broken_.empty()) ImGui::SetTooltip("%s", broken_.c_str());
     if (holds) return action;
     running.release();
@@ -130,7 +128,7 @@ ScenePanel::Action ScenePanel::drawHead(const SceneDocument& document, bool unsa
         ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *%s", file.c_str(), said_.c_str());
     else
         ImGui::TextDisabled("%s%s", file.c_str(), said_.c_str());
-    tip(concat(document.file(), "\n", unsaved ? "Not saved yet." : "As in the file.").c_str());
+    tip(concat(unsaved ? "Not saved yet.\n" : "As in the file.\n", document.file()));
     return action;
 }
 
@@ -160,32 +158,16 @@ ScenePanel::Action ScenePanel::drawSteps(const RunningScene& running, const View
     return action;
 }
 
-// Draws rings in the picture around the places of what is open in the panel. The pointer moves them across
-// the view, if they `may` move: another change in this frame moves objects in memory.
+// Handles for the places of what is open in the panel, if they `may` move: another change in this frame moves
+// objects in memory.
 bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const Projector projector(view, io.DisplaySize);
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float radius = points(9);
-    bool moved = false;
-    if (held_ && (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || *held_ >= places.size())) held_.reset();
-    for (size_t i = 0; i < places.size(); ++i) {
-        const std::optional<ImVec2> center = projector.place(places[i].position);
-        if (!center) continue;
-        const bool near = std::hypot(io.MousePos.x - center->x, io.MousePos.y - center->y) < 1.5f * radius;
-        if (near && !held_ && !io.WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held_ = i;
-        const bool lit = held_ ? *held_ == i : near && !io.WantCaptureMouse;
-        list.AddCircle(*center, radius, IM_COL32(0, 0, 0, 160), 32, points(4));
-        list.AddCircle(*center, radius, lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 190, 70, 255), 32,
-                       points(2));
-        list.AddText(ImVec2(center->x + 1.4f * radius, center->y - radius), IM_COL32(255, 255, 255, 230),
-                     inWords(places[i].key).c_str());
-        if (!may || held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
-        const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].position);
-        setMember(*places[i].object, places[i].key, toJson(rounded(to)));
-        moved = true;
-    }
-    return moved;
+    std::vector<GizmoHandle> handles;
+    for (const JsonRows::Place& place : places)
+        handles.push_back(place.handle);
+    const std::optional<Gizmo::Change> change = gizmo_.draw(handles, view, may);
+    if (!change) return false;
+    JsonRows::move(places[change->handle], change->value);
+    return true;
 }
 
 // Draws what the scene says of its groups.

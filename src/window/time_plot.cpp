@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "window/edit_widgets.h"
 #include "window/interface.h"
 #include "window/panel.h"
 
@@ -74,9 +75,7 @@ void drawPlot(const std::vector<Series>& all) {
     list.AddText(ImVec2(corner.x + points(4), corner.y + points(2)), ImGui::GetColorU32(ImGuiCol_Text),
                  scale.c_str());
     ImGui::InvisibleButton("times", ImVec2(width, height));
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Time of the passes in the last %d frames, the newest at the right.",
-                          int(shownFrames));
+    tip(concat("Time of the passes in the last ", shownFrames, " frames, the newest at the right."));
 }
 
 }  // namespace

@@ -364,6 +364,7 @@ class Viewer : public WindowLoop {
     void drawNotices() {
         HotReload& reload = open_->reload;
         captures_.drawLine();
+        if (!hidden_) showWarnings(open_->warnings(), points(392), points(open_->timeLine.open ? 90 : 12));
         const bool closed = showNotices(reload.problem(), troubles.text(), points(hidden_ ? 12 : 328),
                                         points(hidden_ ? 12 : 392));
         if (closed) troubles.clear();

@@ -11,11 +11,11 @@ namespace shoal::test {
 
 // $0 is a folder of the script's own, the rest is the program. The window adds a byte to $SHOAL_FRAMES
 // whenever a frame begins with nothing left to take; what is drawn by panels that are new settles within the
-// next two.
+// next two. Letters are the built-in ones, so that places do not depend on the machine's fonts.
 static constexpr const char* prelude = R"(
 set -e
 dir=$0
-export SHOAL_FRAMES="$dir/frames"
+export SHOAL_FRAMES="$dir/frames" FONTCONFIG_FILE="$dir/none"
 : > "$dir/frames"
 {
   code=0

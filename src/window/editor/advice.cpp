@@ -101,7 +101,7 @@ EditorAction drawCost(Editor& editor) {
     heading("Cost");
     EditorAction action = EditorAction::none;
     if (ImGui::Button("Measure here")) action = EditorAction::measure;
-    tip("Steps a few thousand of it on this machine, without drawing");
+    tip("Steps a few thousand of it on this machine, without drawing.");
     if (!editor.cost) return action;
     const MoleculeCost& cost = *editor.cost;
     ImGui::SameLine();

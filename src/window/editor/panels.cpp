@@ -16,19 +16,20 @@ EditorAction drawHead(Editor& editor) {
     Document& document = editor.document;
     const std::string name = std::filesystem::path(document.file()).filename().string();
     ImGui::Text("%s%s", name.c_str(), document.unsaved() ? " *" : "");
-    tip(document.file().c_str());
+    tip(document.file());
     const auto button = [&](const char* label, bool can, EditorAction what, const std::string& words) {
         ImGui::BeginDisabled(!can);
         if (ImGui::Button(label)) action = what;
         ImGui::EndDisabled();
-        tip(words.c_str());
+        tip(words);
         ImGui::SameLine();
     };
-    button("Save", document.unsaved() && document.problem().empty(), EditorAction::save, "Ctrl+S");
+    button("Save", document.unsaved() && document.problem().empty(), EditorAction::save,
+           "Into the molecule's file (Ctrl+S).");
     const std::string back = document.undoLabel(), again = document.redoLabel();
-    button("Undo", !back.empty(), EditorAction::undo, "Ctrl+Z: " + back);
-    button("Redo", !again.empty(), EditorAction::redo, "Ctrl+Y: " + again);
-    button("Help", true, EditorAction::none, "F1: all keys");
+    button("Undo", !back.empty(), EditorAction::undo, "Takes the last change back (Ctrl+Z). " + back);
+    button("Redo", !again.empty(), EditorAction::redo, "Does it again (Ctrl+Y). " + again);
+    button("Help", true, EditorAction::none, "All keys (F1).");
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Left)) editor.help = !editor.help;
     ImGui::NewLine();
     if (!document.problem().empty()) {
@@ -52,20 +53,20 @@ void drawReshaping(Editor& editor) {
         editor.overlay.selection = {};
         editor.document.edit(label, [&](Draft& draft) { draft = tried; });
     };
-    button("Mirror", "The side above 0 along the axis of symmetry becomes the image of that below",
+    button("Mirror", "The side above 0 along the axis of symmetry becomes the image of that below.",
            [&](Draft& draft) { return mirrorSide(draft, editor.mirrorAxis); });
     ImGui::SameLine();
-    button("Subdivide", "Each selected triangle, or all, becomes four",
+    button("Subdivide", "Each selected triangle, or all, becomes four.",
            [&](Draft& draft) { return subdivide(draft, editor.overlay.selection.triangles); });
     ImGui::SameLine();
-    button("Weigh", "Masses by area, at so many kg a square metre",
+    button("Weigh", "Masses by area, at so many kg a square metre.",
            [&](Draft& draft) { return weigh(draft, editor.density); });
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     const double least = 1e-6, most = 1e6;
     ImGui::DragScalar("##density", ImGuiDataType_Double, &editor.density, 0.01f, &least, &most, "%.3g",
                       ImGuiSliderFlags_Logarithmic);
-    tip("kg/m^2");
+    tip("How heavy a square metre is that Weigh makes, in kg/m².");
 }
 
 void drawToolButtons(Editor& editor) {
@@ -75,10 +76,10 @@ void drawToolButtons(Editor& editor) {
         const char *label, *words;
     };
     constexpr Entry entries[] = {
-        {Tool::select, "Select", "V: click to select, Shift adds; drag what is selected to move it"},
-        {Tool::vertex, "Vertex", "A: click to add a vertex"},
-        {Tool::spring, "Spring", "S: drag from vertex to vertex, or click one after the other"},
-        {Tool::triangle, "Triangle", "T: click three vertices, anticlockwise"}};
+        {Tool::select, "Select", "Click to select, Shift adds; drag what is selected to move it (V)."},
+        {Tool::vertex, "Vertex", "Click to add a vertex (A)."},
+        {Tool::spring, "Spring", "Drag from vertex to vertex, or click one after the other (S)."},
+        {Tool::triangle, "Triangle", "Click three vertices, anticlockwise (T)."}};
     for (const Entry& entry : entries) {
         if (toggle(entry.label, editor.tool == entry.tool))
             editor.tool = entry.tool, editor.overlay.chain.clear();
@@ -88,7 +89,7 @@ void drawToolButtons(Editor& editor) {
     ImGui::NewLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Symmetry");
-    tip("M: what is done on one side is done on the other");
+    tip("What is done on one side is done on the other (M).");
     constexpr const char* axes[] = {"none", "x", "y", "z"};
     for (int i = 0; i < 4; ++i) {
         ImGui::SameLine();
@@ -96,7 +97,7 @@ void drawToolButtons(Editor& editor) {
     }
     drawReshaping(editor);
     ImGui::Checkbox("Snap to", &editor.snaps);
-    tip("G: added and moved vertices to a grid");
+    tip("Added and moved vertices go to a grid (G).");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(points(90));
     const double least = 1e-6, most = 10;
@@ -108,11 +109,11 @@ void drawToolButtons(Editor& editor) {
     ImGui::Checkbox("vertices", &o.vertices);
     ImGui::SameLine();
     ImGui::Checkbox("normals", &o.normals);
-    tip("N");
+    tip("Which way triangles face (N).");
     ImGui::Checkbox("numbers", &o.numbers);
     ImGui::SameLine();
     ImGui::Checkbox("tension", &o.tension);
-    tip("Springs by their strain: blue squeezed, green slack, red stretched");
+    tip("Springs by their strain: blue squeezed, green slack, red stretched.");
     if (!o.tension) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
@@ -153,16 +154,16 @@ namespace {
 EditorAction drawButtons(EditorStage& stage) {
     EditorAction action = EditorAction::none;
     if (ImGui::Button("Rewind")) action = EditorAction::rewind;
-    tip("Home: the rest shape");
+    tip("Back to the rest shape (Home).");
     ImGui::SameLine();
     if (ImGui::Button("Back")) action = EditorAction::back;
-    tip(", : one frame back");
+    tip("One frame back (,).");
     ImGui::SameLine();
     if (ImGui::Button(stage.playing ? "Pause" : "Play ")) action = EditorAction::play;
-    tip("Space");
+    tip("Lets it move, or stand still (Space).");
     ImGui::SameLine();
     if (ImGui::Button("Step")) action = EditorAction::step;
-    tip(". : one frame");
+    tip("One frame on (.).");
     return action;
 }
 
@@ -202,7 +203,7 @@ void drawSolver(StageSettings& s, const EditorStage& stage) {
         }
         ImGui::EndCombo();
     }
-    tip(stage.solverWhy().c_str());
+    tip(stage.solverWhy());
 }
 
 }  // namespace

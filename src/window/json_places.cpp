@@ -1,0 +1,81 @@
+// The places that rows of a scene name, as handles in the picture.
+#include <algorithm>
+#include <cmath>
+
+#include "core/json_build.h"
+#include "window/json_rows.h"
+#include "window/scene_document.h"
+
+namespace shoal::window {
+
+// Where something stands, by the words that scenes have for it.
+static bool isPlace(const Key& key) {
+    constexpr const char* names[] = {"position", "center", "point", "origin", "from", "to"};
+    return key.kind == Key::Kind::vector3 &&
+           std::find(std::begin(names), std::end(names), key.name) != std::end(names);
+}
+
+namespace {
+
+std::optional<glm::dvec3> vectorOf(const JsonValue* value) {
+    const std::vector<double> numbers = value ? numbersOf(*value) : std::vector<double>();
+    if (numbers.size() != 3) return {};
+    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+// To a millimetre, and as JSON.
+JsonValue rounded(const glm::dvec3& place) {
+    return toJson(glm::round(place * 1e3) / 1e3);
+}
+
+}  // namespace
+
+std::pair<glm::dvec3, double> axisAndAngle(const JsonValue& value) {
+    glm::dvec3 axis(0, 1, 0);
+    double angle = 0;
+    if (const std::vector<double> q = numbersOf(value); q.size() == 4) {
+        const glm::dvec3 imaginary(q[0], q[1], q[2]);
+        if (glm::length(imaginary) > 0) axis = glm::normalize(imaginary);
+        angle = 2 * std::atan2(glm::length(imaginary), q[3]);
+    }
+    axis = vectorOf(value.find("axis")).value_or(axis);
+    if (const JsonValue* given = value.find("angle")) angle = given->number;
+    return {axis, angle};
+}
+
+void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& object) {
+    const auto add = [&](JsonValue& parent, const std::string& name, const JsonValue& numbers) {
+        if (const std::optional<glm::dvec3> position = vectorOf(&numbers))
+            places_.push_back({&parent, name, {.label = inWords(name), .position = *position}});
+    };
+    if (isPlace(key)) add(object, key.name, value);
+    if (isPlace(key) && (key.name == "position" || key.name == "center") && !places_.empty()) {
+        GizmoHandle& handle = places_.back().handle;
+        const JsonValue *radius = object.find("radius"), *turn = object.find("rotation");
+        if (const auto size = vectorOf(object.find("size"))) handle.reach = *size / 2.0;
+        handle.round = radius && radius->kind == JsonValue::Kind::number;
+        if (handle.round) handle.reach = glm::dvec3(radius->number);
+        if (turn || object.find("size")) {
+            const auto [axis, angle] = turn ? axisAndAngle(*turn) : std::pair(glm::dvec3(0, 1, 0), 0.0);
+            handle.turn = glm::angleAxis(angle, glm::normalize(axis));
+        }
+    }
+    if (key.kind != Key::Kind::box || !object.find(key.name)) return;
+    JsonValue& box = memberOf(object, key.name);
+    for (const char* corner : {"low", "high"})
+        if (const JsonValue* numbers = box.find(corner)) add(box, corner, *numbers);
+}
+
+void JsonRows::move(const Place& place, const GizmoHandle& to) {
+    JsonValue& object = *place.object;
+    if (to.position != place.handle.position) setMember(object, place.key, rounded(to.position));
+    if (to.reach != place.handle.reach && to.round)
+        setMember(object, "radius", toJson(std::round(to.reach->x * 1e4) / 1e4));
+    if (to.reach != place.handle.reach && !to.round) setMember(object, "size", rounded(*to.reach * 2.0));
+    if (!to.turn || to.turn == place.handle.turn) return;
+    setMember(object, "rotation",
+              shoal::object(shoal::key("axis", rounded(glm::axis(*to.turn))),
+                            shoal::key("angle", std::round(glm::angle(*to.turn) * 1e4) / 1e4)));
+}
+
+}  // namespace shoal::window
