@@ -308,15 +308,23 @@ struct ContactBaseline::Data {
                 if (!contact.takesPart) continue;
                 shift += settle(active.slot, contact);
                 piece.kept.push_back(keptOf(active.slot, contact, step.restSpeed));
-                known.load += piece.kept.back().impulse;
             }
             known.end = int(piece.kept.size());
             const float weight = impacts.spheres[slot].weight;
+            if (active.begin < active.end) known.load = actsNext(active, weight, step.restSpeed);
             shift *=
                 std::min(1.0f, step.stepTime / std::max(glm::length(shift) * weight, 1e-30f));  // at 1 m/s
             state.velocities[sphere] += (active.total + impacts.impulse(active.slot) + known.load) * weight;
             state.positions[sphere] += (shift + impacts.shift(active.slot)) * weight;
         }
+    }
+
+    // Returns what acts on a sphere over the next step, N s: what has acted, with a tenth of what was
+    // missing, and not much more than a weight.
+    static vec3 actsNext(const Active& active, float weight, float restSpeed) {
+        const vec3 next = active.acted + active.total * 0.1f;
+        const float most = 1.5f * glm::length(active.acted) + restSpeed / std::max(weight, 1e-30f);
+        return next * std::min(1.0f, most / std::max(glm::length(next), 1e-30f));
     }
 
     // Returns how far a contact moves the sphere beside what pushes it apart, kg m.

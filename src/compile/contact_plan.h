@@ -85,6 +85,9 @@ struct ContactPlan {
     // So many times its own mass a sphere carries at rest, with so many iterations; under more it sways, or
     // what lies on it sinks in. Measured: docs/contact-figures.md.
     static double carried(int iterations);
+    // So many let a tower of twenty rest whose marbles are light and heavy in turn, one `massRatio` times the
+    // other, and heaps of such.
+    static int iterationsFor(double massRatio);
     // The lightest and the heaviest of what contact moves, and how many times as heavy it is; null where all
     // is held.
     struct Masses {

@@ -121,7 +121,9 @@ void warnOfMasses(const Scene& scene, Plan& plan) {
                 needed > most
                     ? concat(", since ", most, " \"iterations\", which are the most, carry ",
                              std::floor(ContactPlan::carried(most)), " times the mass")
-                    : concat(" with less than ", needed, " \"iterations\", and in a tower with more"))});
+                    : concat(" with less than ", needed, " \"iterations\", and in a tower with less than ",
+                             ContactPlan::iterationsFor(masses.ratio),
+                             ", which a scene has that does not say how many"))});
 }
 
 // Warns of solid molecules whose springs are soft for the contact step. What contacts remember pushes as a

@@ -59,9 +59,14 @@ const Description& describe(const ContactSettings*) {
                  {"", "The contact steps of a frame, at most one a substep; one a substep without it.",
                   Range::between(1, maxSubsteps)})
             .unlessZero()
-            .key("iterations", &S::iterations,
-                 {"", "The most iterations of the response where several touch at once.",
-                  Range::between(1, S::mostIterations)})
+            .key(
+                "iterations", &S::iterations,
+                {"",
+                 "The most iterations of the response where several touch at once; without it 8, times the "
+                 "square root of how many times as heavy as the lightest the heaviest is that contact moves, "
+                 "256 at most.",
+                 Range::between(1, S::mostIterations)})
+            .unlessZero()
             .key(
                 "tolerance", &S::tolerance,
                 {"",

@@ -157,7 +157,7 @@ struct ContactSettings {
     int neighbors = 8;  // of the UberFlow searches, to either side
     int steps = 0;      // contact steps of a frame; 0: one a substep
     static constexpr int mostIterations = 256;
-    int iterations = 8;             // of the simultaneous response, at most
+    int iterations = 0;             // of the simultaneous response, at most; 0: as many as its masses take
     double tolerance = 5e-4;        // the residual at which they end
     std::optional<double> fastest;  // m/s, relative to one another: none passes through another up to this
     std::optional<double> rest;     // m/s: what moves more slowly for a while rests; nothing: nothing does

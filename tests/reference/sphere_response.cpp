@@ -313,10 +313,16 @@ class Response {
                                          1.5 * m.held + settings_.restSpeed / weight);
             entry.impulse = m.now.impulse * std::min(1.0, most / length);
         }
-        memory_->loads.assign(spheres_->size(), dvec3(0));
-        for (const auto& [pair, entry] : memory_->contacts) {
-            memory_->loads[size_t(pair.first)] += entry.impulse;
-            memory_->loads[size_t(pair.second)] -= entry.impulse;
+        const std::vector<dvec3> sums = gather([](const Meeting& m) { return m.now.impulse; });
+        std::vector<bool> touches(sums.size(), false);
+        for (const Meeting& m : meetings_)
+            touches[m.a] = touches[m.b] = true;
+        for (size_t i = 0; i < sums.size(); ++i) {
+            const dvec3 acted = memory_->loads[i], next = acted + 0.1 * (sums[i] - acted);
+            const double most =
+                1.5 * glm::length(acted) + settings_.restSpeed / std::max(sphere(i).weight, 1e-30);
+            memory_->loads[i] =
+                touches[i] ? next * std::min(1.0, most / (glm::length(next) + 1e-30)) : dvec3(0);
         }
     }
 

@@ -128,6 +128,20 @@ TEST_CASE("contact that is probably not meant is warned of", "[contact plan]") {
     CHECK(warns(scene, "no group has \"contact\""));
 }
 
+TEST_CASE("unlike masses take more iterations where the scene does not say how many", "[contact plan]") {
+    Scene scene = leavesOf(0.05);
+    for (const auto& [ratio, iterations] :
+         {std::pair(1.0, 8), std::pair(4.0, 16), std::pair(100.0, 80), std::pair(1e5, 256)}) {
+        for (Vertex& vertex : scene.groups[0].molecule.vertices)
+            vertex.mass = 0.5;
+        scene.groups[0].molecule.vertices.back().mass = 0.5 * ratio;
+        scene.contact.iterations = 0;
+        CHECK(compile(scene).contact.settings.iterations == iterations);
+        scene.contact.iterations = 5;
+        CHECK(compile(scene).contact.settings.iterations == 5);
+    }
+}
+
 TEST_CASE("what is too heavy for what it may come to lie on is told", "[contact plan]") {
     const auto heavier = [](double ratio, int iterations) {
         Scene scene = leavesOf(0.05);
@@ -151,10 +165,13 @@ TEST_CASE("what is too heavy for what it may come to lie on is told", "[contact 
     CHECK(warning(heavier(95, 7)) ==
           "what contact moves of \"iron\" is 95 times as heavy as of \"leaves\": where it lies on that, it "
           "sinks "
-          "in or sways with less than 8 \"iterations\", and in a tower with more");
+          "in or sways with less than 8 \"iterations\", and in a tower with less than 78, which a scene has "
+          "that does not say how many");
     CHECK_THAT(warning(heavier(5000, 64)), Catch::Contains("with less than 142 \"iterations\""));
     CHECK_THAT(warning(heavier(5e4, 64)),
                Catch::Contains("256 \"iterations\", which are the most, carry 16384 times"));
+    CHECK(warning(heavier(16000, 0)).empty());
+    CHECK_THAT(warning(heavier(17000, 0)), Catch::Contains("256 \"iterations\", which are the most"));
     Scene scene = heavier(1000, 4);
     scene.gravity = dvec3(0);
     CHECK(warning(scene).empty());

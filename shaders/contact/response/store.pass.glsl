@@ -23,6 +23,16 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
     return known.sticks ? -slip * back : vec3(0.0);
 }
 
+// Returns what acts on the sphere over the next step, N s: what has acted over this one, with a tenth of what was missing, and not much more
+// than a weight. So it is in balance where the impulses are, on a body or a sheet as a whole, too. The sum of what contacts remember one by one is
+// not, where some have grown and others not, and throws a light sphere between heavy ones. `sum`: of its impulses, N s.
+vec3 actsNext(vec3 sum, vec3 missing)
+{
+    vec3 next = sum - 0.9 * missing;
+    float most = 1.5 * length(sum - missing) + restSpeed / max(own.weight, 1e-30);
+    return next * min(1.0, most / max(length(next), 1e-30));
+}
+
 void main()
 {
     int slot = ownSlot(count);
@@ -32,15 +42,17 @@ void main()
     int row = ownRow(slot);
     int listed = listedOf(slot);
     vec4 total = totalsAt(slot, 0);
+    vec3 missing = total.xyz;
     vec3 shift = totalsAt(slot, 1).xyz;
-    vec3 keeps = vec3(0.0);
+    vec3 sum = vec3(0.0);  // of its impulses, N s
     float part = 1.0;  // of what colliders push, with which the next step begins
     bool isHeld = false;
     for (int e = 0; e < listed; ++e) {
         int other = int(listsAt(slot, e));
+        ContactImpulse known = impulseFrom(impulsesAt(row, e), anchorsAt(row, e));
         ContactImpulse kept;
-        shift += store(slot, other, impulseFrom(impulsesAt(row, e), anchorsAt(row, e)), kept);
-        keeps += kept.impulse;
+        shift += store(slot, other, known, kept);
+        sum += known.impulse;
         putPartners(sphere, e, uint(sphereOf(other)));
         putKeptImpulses(sphere, e, firstPart(kept));
         putKeptAnchors(sphere, e, secondPart(kept));
@@ -51,8 +63,9 @@ void main()
         for (int k = 0; k < MOST_COLLIDERS; ++k) pushed += length(colliderImpulsesAt(memory, k).xyz);
         part = own.weight > 0.0 ? min(1.0, mostRemembered(total.w, pushed, own.weight) / max(pushed, 1e-30)) : 0.0;
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
-            vec4 push = colliderImpulsesAt(memory, k) * vec4(vec3(part), 1.0);
-            keeps += push.xyz;
+            vec4 push = colliderImpulsesAt(memory, k);
+            sum += push.xyz;
+            push.xyz *= part;
             isHeld = isHeld || push != vec4(0.0);
             putColliderImpulses(memory, k, push);
             putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
@@ -68,5 +81,6 @@ void main()
     putTotals(slot, 1, vec4(shift, 0.0));
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-    putWarmStart(memoryRow(slot), vec4(keeps, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));
+    vec3 acts = listed > 0 || isHeld ? actsNext(sum, missing) : vec3(0.0);
+    putWarmStart(memoryRow(slot), vec4(acts, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));
 }
