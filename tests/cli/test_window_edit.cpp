@@ -102,8 +102,7 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     const std::string file = scratch.path("new.scene.json");
     const std::string steps =
         "cp $file $file.begun\n"
-        "press 600 360; press 567 397; press 614 432\n"  // colliders, Add, sphere
-        "press 600 397\n"                                // the sphere
+        "press 600 360; press 567 397; press 614 432\n"  // colliders, Add, sphere, which opens
         "at 450 450; xdotool mousedown 1; settle; at 400 400; xdotool mouseup 1; settle\n"
         "control s; cp $file $file.kept\n"
         "control z; control z; control s\n"

@@ -196,31 +196,3 @@ TEST_CASE("what changes with age is told where particles live for ever", "[parti
     CHECK(scene.warnings[0].location.path == "$.groups[0].particle");
     CHECK(particles.scene("{}").warnings.empty());
 }
-
-TEST_CASE("a particle type that was written reads back the same", "[particle]") {
-    const Particles particles;
-    Scene scene;
-    scene.file = particles.file();
-    const auto write = [&scene](const ParticleType& type) {
-        return writeJson(describe(&type).write(type, &scene));
-    };
-    CHECK(write(ParticleType()) == "{}\n");
-    for (
-        const std::string text :
-        {flames, "{}", R"({"shape": "points", "pixels": 5.5, "blend": "additive"})",
-         R"({"shape": "sprites", "size": 3, "growth": [0, 1], "turn": 1, "blend": "none", "lit": true})",
-         R"({"facing": "velocity", "stretch": 0.125, "blend": "multiplicative", "softness": 1})",
-         R"({"colors": [{"age": 0.5, "color": [1, 1, 0.1]}], "image": {"file": "puffs.png"}, "sort": "none"})",
-         R"({"image": {"file": "puffs.png", "columns": 4, "rows": 1, "tile": 0}})",
-         R"({"image": {"file": "puffs.png", "columns": 4, "tiles": [0, 1], "flipBook": true}})"}) {
-        const std::string written = write(particles.type(text));
-        INFO(written);
-        const std::string again = write(particles.type(written));
-        CHECK(again == written);
-        // Each key that the text gives is there again: nothing got lost on the way.
-        const JsonValue asked = parseJson(text, "asked"), got = parseJson(written, "got");
-        CHECK(got.members.size() == asked.members.size());
-        for (const JsonMember& member : asked.members)
-            CHECK(got.find(member.first) != nullptr);
-    }
-}
