@@ -101,10 +101,17 @@ bool drag(const Row& row, const Limit& limit, double* values, int count, double 
         tip(row.tip);
         ImGui::SetNextItemWidth(-1);
     }
+    const double least = limit.least * row.scale, most = limit.most * row.scale;
+    std::array<double, 4> shown{};
+    for (int i = 0; i < count; ++i)
+        shown[size_t(i)] = values[i] * row.scale;
+    const std::array<double, 4> before = shown;
     const bool changed =
-        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count, float(speed),
-                           &limit.least, &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
+        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, shown.data(), count, float(speed),
+                           &least, &most, row.format, ImGuiSliderFlags_AlwaysClamp);
     tip(row.tip);
+    for (int i = 0; i < count; ++i)
+        if (shown[size_t(i)] != before[size_t(i)]) values[i] = stored(row, limit, shown[size_t(i)]);
     return changed;
 }
 

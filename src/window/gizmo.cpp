@@ -146,7 +146,7 @@ std::optional<Gizmo::Change> Gizmo::draw(const std::vector<GizmoHandle>& handles
         const std::optional<ImVec2> center = projector.place(handles[i].position);
         if (!center) continue;
         shapes.push_back({{GizmoPart::Kind::ring, i, 0}, {*center}});
-        ImGui::GetBackgroundDrawList()->AddText(ImVec2(center->x + points(13), center->y - points(9)),
+        ImGui::GetBackgroundDrawList()->AddText(ImVec2(center->x + points(13), center->y + points(6)),
                                                 IM_COL32(255, 255, 255, 230), handles[i].label.c_str());
         const glm::dvec3 beside = projector.onPlane({center->x + points(1), center->y}, handles[i].position);
         if (i == shown_ || handles.size() == 1)

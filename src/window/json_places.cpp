@@ -60,14 +60,22 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
             handle.turn = glm::angleAxis(angle, glm::normalize(axis));
         }
     }
-    if (key.kind != Key::Kind::box || !object.find(key.name)) return;
-    JsonValue& box = memberOf(object, key.name);
-    for (const char* corner : {"low", "high"})
-        if (const JsonValue* numbers = box.find(corner)) add(box, corner, *numbers);
+    const auto low = key.kind == Key::Kind::box ? vectorOf(value.find("low")) : std::nullopt,
+               high = key.kind == Key::Kind::box ? vectorOf(value.find("high")) : std::nullopt;
+    if (low && high && object.find(key.name))
+        places_.push_back(
+            {&memberOf(object, key.name),
+             "",
+             {.label = inWords(key.name), .position = (*low + *high) / 2.0, .reach = (*high - *low) / 2.0}});
 }
 
 void JsonRows::move(const Place& place, const GizmoHandle& to) {
     JsonValue& object = *place.object;
+    if (place.key.empty()) {
+        setMember(object, "low", rounded(to.position - *to.reach));
+        setMember(object, "high", rounded(to.position + *to.reach));
+        return;
+    }
     if (to.position != place.handle.position) setMember(object, place.key, rounded(to.position));
     if (to.reach != place.handle.reach && to.round)
         setMember(object, "radius", toJson(std::round(to.reach->x * 1e4) / 1e4));

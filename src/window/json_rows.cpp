@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -60,6 +61,9 @@ const Description* alternativeOf(const Key& key, const JsonValue& object) {
 std::string titleOf(const JsonValue& element, size_t index) {
     for (const char* key : {"name", "type", "from"})
         if (const JsonValue* value = element.find(key); value && !value->text.empty()) return value->text;
+    for (const char* key : {"molecule", "file"})
+        if (const JsonValue* value = element.find(key))
+            return std::filesystem::path(value->text).stem().string();
     return std::to_string(index + 1);
 }
 
@@ -272,6 +276,20 @@ std::string formatOf(const Key& key, const Slider* slider) {
     return key.says.unit.empty() || key.kind == Kind::byHand ? digits : concat(digits, " ", key.says.unit);
 }
 
+Limit numberLimit(const Key& key) {
+    const Limit limit =
+        key.kind == Kind::byHand ? Limit{key.form.range.least, key.form.range.most} : limitOf(key);
+    return {std::max(limit.least, -largestNumber), std::min(limit.most, largestNumber)};
+}
+
+// By how much a pixel moves numbers that are shown times `scale`.
+double dragSpeed(const Key& key, const std::vector<double>& numbers, double scale) {
+    double largest = 0;
+    for (const double number : numbers)
+        largest = std::max(largest, std::abs(number * scale));
+    return std::max(isWhole(key) ? 0.2 : 0.005, largest / 200);
+}
+
 // As many digits as were seen.
 double rounded(const Key& key, double number) {
     return isWhole(key) ? std::round(number) : std::stod(formatted("%.6g", number));
@@ -283,15 +301,19 @@ double rounded(const Key& key, double number) {
 bool JsonRows::drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label) {
     const std::vector<double> stored = numbersOf(value);
     const Slider* slider = sliderOf(key, stored);
-    if (!slider || stored.empty() || stored.size() > 2) return drawNumbers(key, value, label);
+    if (stored.empty() || stored.size() > 2) return drawNumbers(key, value, label);
     glm::dvec2 span(stored.front(), stored.back());
     const std::vector<double> usual = numbersOf(keys.usualValue(key));
     if (key.kind == Kind::ends && stored.size() == 1 && !usual.empty()) span.x = usual.front();
     const glm::dvec2 before = span;
     const std::string format = formatOf(key, slider);
-    const Row row{label.c_str(), key.says.sentence.c_str(),  format.c_str(),
-                  slider->steep, isAngle(key) ? degrees : 1, key.kind == Kind::ends};
-    if (!slideSpan(row, {slider->least, slider->most}, span)) return false;
+    Row row{label.c_str(), key.says.sentence.c_str(), format.c_str()};
+    row.scale = isAngle(key) ? degrees : 1;
+    row.free = key.kind == Kind::ends;
+    row.steep = slider && slider->steep;
+    if (slider ? !slideSpan(row, {slider->least, slider->most}, span)
+               : !drag(row, numberLimit(key), &span.x, 2, dragSpeed(key, stored, row.scale)))
+        return false;
     for (int i = 0; i < 2; ++i)
         if (span[i] != before[i]) span[i] = rounded(key, span[i]);
     const bool single = key.kind == Kind::span ? span.x == span.y : !usual.empty() && span.x == usual.front();
@@ -311,20 +333,14 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
     const std::string format = numbers.size() > 1 && !isAngle(key) ? "%.5g" : formatOf(key, slider);
     Row row{label.c_str(), key.says.sentence.c_str(), format.c_str()};
     row.scale = isAngle(key) ? degrees : 1;
-    Limit limit = limitOf(key);
-    if (key.kind == Kind::byHand) limit = {key.form.range.least, key.form.range.most};
-    limit = {std::max(limit.least, -largestNumber), std::min(limit.most, largestNumber)};
     bool changed = false;
     if (slider && numbers.size() == 1) {
         row.steep = slider->steep;
         changed = slide(row, {slider->least, slider->most}, numbers[0]);
         if (key.unlessZero && numbers[0] < key.says.range.least) numbers[0] = 0;
     } else {
-        double largest = 0;
-        for (const double number : numbers)
-            largest = std::max(largest, std::abs(number * row.scale));
-        changed = drag(row, limit, numbers.data(), int(numbers.size()),
-                       std::max(isWhole(key) ? 0.2 : 0.005, largest / 200));
+        changed = drag(row, numberLimit(key), numbers.data(), int(numbers.size()),
+                       dragSpeed(key, numbers, row.scale));
     }
     if (!changed) return false;
     for (size_t i = 0; i < numbers.size(); ++i)
@@ -374,9 +390,11 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
     if (colors) drawColorBar(list);
     for (size_t i = 0; i < list.items.size(); ++i) {
         ImGui::PushID(int(i));
-        if (fresh_ == ImGui::GetID("element")) ImGui::SetNextItemOpen(true), fresh_ = 0;
+        const bool fresh = fresh_ == ImGui::GetID("element");
+        if (fresh) ImGui::SetNextItemOpen(true), fresh_ = 0;
         if (ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str(),
                               starts && list.items.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            if (fresh) ImGui::SetScrollHereY(0.1f);
             if (!colors && ImGui::SmallButton("Duplicate")) copied = i;
             if (!colors) ImGui::SameLine();
             if (ImGui::SmallButton("Remove")) removed = i;

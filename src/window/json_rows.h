@@ -32,10 +32,10 @@ class JsonRows {
     bool drawList(const Key& key, JsonValue& list);
     std::vector<std::string> opens;  // keys whose nodes are open at first, and the only element of a list
 
-    // A place that a key of an element of a list names, which was drawn.
+    // A place or a box that a key of an element of a list names, which was drawn.
     struct Place {
-        JsonValue* object;  // that has the key; until something changes
-        std::string key;
+        JsonValue* object;   // that has the key, or a box; until something changes
+        std::string key;     // empty: of a box
         GizmoHandle handle;  // with the size and the turn that stand beside it
     };
     const std::vector<Place>& places() const { return places_; }
@@ -72,7 +72,7 @@ class JsonRows {
 // An axis and an angle, rad, whether a file has these or a quaternion.
 std::pair<glm::dvec3, double> axisAndAngle(const JsonValue& rotation);
 
-// "sphere", or the name of an element of a list, or its number.
+// The name of an element of a list, its kind, or what its file is called; else its number.
 std::string titleOf(const JsonValue& element, size_t index);
 
 }  // namespace shoal::window

@@ -76,14 +76,18 @@ JsonValue groupOf(const JsonValue& groups, const std::string& molecule, const Sc
         least = glm::min(least, vertex.position), most = glm::max(most, vertex.position);
     const bool ball = shape.triangles.empty();
     const double size = glm::length(most - least) + (ball ? shape.material.pointSize : 0);
-    const double side = std::stod(formatted("%.2g", 10 * size));  // a hundred of them lie apart
+    // to be seen: a hundred of them lie apart, and none is smaller than a hundredth of how far they are
     const glm::dvec3 target = scene.camera.target;
+    const double scale = std::max(1.0, 0.01 * glm::distance(scene.camera.eye, target) / size);
+    const double side = std::stod(formatted("%.2g", 10 * scale * size));
     const double ground = groundHeight(scene, target.x, target.z);
-    const double bottom = std::isfinite(ground) ? ground + size : target.y - side / 2;
+    const double bottom =
+        std::max(target.y - side / 2, std::isfinite(ground) ? ground + scale * size : target.y - side / 2);
     const auto rounded = [](const glm::dvec3& p) { return glm::round(p * 1e3) / 1e3; };
     const glm::dvec3 low = rounded({target.x - side / 2, bottom, target.z - side / 2});
     JsonValue place =
         object(key("on", "volume"), key("box", object(key("low", low), key("high", rounded(low + side)))));
+    if (scale > 1) place.add("scale", toJson(std::stod(formatted("%.2g", scale))));
     if (!ball) place.add("turn", JsonValue::makeString("any"));
     setMember(out, "place", std::move(place));
     if (shape.hasPins()) setMember(out, "held", JsonValue::makeBoolean(false));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ class Troubles {
             work();
             return true;
         } catch (const Error& error) {
-            warn(cause, error.what());
+            if (begin(cause, error.message())) std::cerr << "shoal: warning: " << error.what() << std::endl;
             return false;
         }
     }

@@ -140,10 +140,6 @@ ScenePanel::Action ScenePanel::drawSteps(const RunningScene& running, const View
         ImGui::EndDisabled();
         tip(says);
     };
-    if (refused()) {
-        button("Drop", true, Action::undo, "Takes back what cannot run as it is (Ctrl+Z).");
-        ImGui::SameLine();
-    }
     button("Undo", running.document().before(), Action::undo, "Takes the last change back (Ctrl+Z).");
     ImGui::SameLine();
     button("Redo", running.document().after(), Action::redo, "Does it again (Ctrl+Y).");
@@ -155,6 +151,9 @@ ScenePanel::Action ScenePanel::drawSteps(const RunningScene& running, const View
         draft_->changed = true;
     }
     tip("Makes what you see now the camera of the scene.");
+    if (!refused()) return action;
+    ImGui::SameLine();
+    button("Drop change", true, Action::undo, "Takes back what cannot run as it is (Ctrl+Z).");
     return action;
 }
 

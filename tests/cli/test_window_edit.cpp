@@ -146,7 +146,7 @@ TEST_CASE("what cannot run stays in the panel until it is dropped", "[.window]")
         "cp $file $file.begun\n"
         "press 600 378; press 600 396; press 662 414\n"
         "says 'at least'; control s\n"
-        "press 535 75; key Escape\n";
+        "press 770 75; key Escape\n";
     const Outcome outcome = editWhole(file, steps);
     CHECK(readFile(file) == readFile(file + ".begun"));
     REQUIRE(outcome.messages().size() == 2);

@@ -117,10 +117,8 @@ Cloud cloud(int count, double side, vec2 material, double fastest = 1.5) {
     const bool swept = fastest > 1.5;
     if (swept) out.scene.contact.fastest = 2 * std::sqrt(3.0) * fastest;
     out.contacts = reference::touching(out.expected, swept ? cloudStep : 0);
-    reference::SphereResponse settings;
-    settings.stepTime = cloudStep;
-    settings.restitution = double(material.x);
-    settings.friction = double(material.y);
+    const reference::SphereResponse settings = {cloudStep, 0, double(material.x), double(material.y),
+                                                compile(out.scene).contact.settings.iterations};
     reference::ContactMemory memory;
     reference::respond(out.expected, out.contacts, settings, memory);
     return out;
@@ -196,8 +194,9 @@ TEST_CASE("contacts remember over steps as the reference does", "[molecule conta
     std::vector<reference::Sphere> spheres = spheresOf(compile(c.scene));
     for (size_t i = 0; i < spheres.size(); ++i)
         spheres[i].velocity = c.velocities[i];
+    const int iterations = simulation.plan().contact.settings.iterations;
     const reference::SphereResponse settings = {cloudStep, 2 * glm::length(gravity) * cloudStep,
-                                                double(material.x), double(material.y)};
+                                                double(material.x), double(material.y), iterations};
     reference::ContactMemory memory;
     memory.loads.resize(spheres.size(), dvec3(0));
     for (int step = 0; step < 6; ++step) {

@@ -399,6 +399,7 @@ static std::string firstScene(const fs::path& file) {
                   text(leaf.generic_string()), R"(,
       "count": 100,
       "place": {"on": "volume", "box": {"low": [-1.5, 0.5, -1], "high": [1.5, 2.5, 1]}, "turn": "any"},
+      "held": false,
       "drag": {"normal": 6, "tangent": 0.6}
     }
   ],
