@@ -394,7 +394,7 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
         if (fresh) ImGui::SetNextItemOpen(true), fresh_ = 0;
         if (ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str(),
                               starts && list.items.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
-            if (fresh) ImGui::SetScrollHereY(0.1f);
+            if (fresh && !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.1f);
             if (!colors && ImGui::SmallButton("Duplicate")) copied = i;
             if (!colors) ImGui::SameLine();
             if (ImGui::SmallButton("Remove")) removed = i;
