@@ -57,7 +57,7 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
         if (handle.round) handle.reach = glm::dvec3(radius->number);
         if (turn || object.find("size")) {
             const auto [axis, angle] = turn ? axisAndAngle(*turn) : std::pair(glm::dvec3(0, 1, 0), 0.0);
-            handle.turn = glm::angleAxis(angle, glm::normalize(axis));
+            if (glm::length(axis) > 0) handle.turn = glm::angleAxis(angle, glm::normalize(axis));
         }
     }
     const auto low = key.kind == Key::Kind::box ? vectorOf(value.find("low")) : std::nullopt,

@@ -71,7 +71,6 @@ std::string titleOf(const JsonValue& element, size_t index) {
 
 void JsonRows::begin(const Scene& scene) {
     places_.clear();
-    if (!scene_ || scene_->file != scene.file) molecules_.list(scene.file);
     scene_ = &scene;
 }
 
@@ -79,7 +78,8 @@ void JsonRows::begin(const Scene& scene) {
 std::optional<JsonValue> JsonRows::addedTo(const Key& key, const JsonValue& list) {
     std::optional<JsonValue> out;
     if (key.name == "groups") {
-        if (const auto molecule = molecules_.add("Add")) out = groupOf(list, *molecule, *scene_);
+        if (const auto molecule = molecules_.add("Add", scene_->file))
+            out = groupOf(list, *molecule, *scene_);
         return out;
     }
     const Description& element = *key.objects[0];
@@ -352,7 +352,7 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
 bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& label) {
     const Row row{label.c_str(), key.says.sentence.c_str()};
     if (key.name == "molecule" && scene_) {
-        const std::optional<std::string> chosen = molecules_.choose(row, value.text);
+        const std::optional<std::string> chosen = molecules_.choose(row, value.text, scene_->file);
         if (chosen) value = toJson(*chosen);
         return chosen.has_value();
     }

@@ -32,11 +32,12 @@ void MoleculePicker::list(const std::string& sceneFile) {
     }
 }
 
-std::optional<std::string> MoleculePicker::drawList() {
+std::optional<std::string> MoleculePicker::drawList(const std::string& sceneFile) {
     std::optional<std::string> chosen;
     const float width = points(340);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 0.8f * ImGui::GetIO().DisplaySize.y));
     if (!ImGui::BeginPopup("molecules")) return chosen;
+    if (ImGui::IsWindowAppearing()) list(sceneFile);
     for (const Listed& listed : listed_) {
         ImGui::PushID(listed.name.c_str());
         const auto picture = [&](ImDrawList& list, ImVec2 low, ImVec2 high) {
@@ -53,20 +54,21 @@ std::optional<std::string> MoleculePicker::drawList() {
     return chosen;
 }
 
-std::optional<std::string> MoleculePicker::choose(const Row& row, const std::string& current) {
+std::optional<std::string> MoleculePicker::choose(const Row& row, const std::string& current,
+                                                  const std::string& sceneFile) {
     ImGui::PushID(row.label);
     beginRow(row);
     if (ImGui::Button(concat(fs::path(current).stem().string(), "###current").c_str(), ImVec2(-1, 0)))
         ImGui::OpenPopup("molecules");
     tip(current);
-    const std::optional<std::string> chosen = drawList();
+    const std::optional<std::string> chosen = drawList(sceneFile);
     ImGui::PopID();
     return chosen == current ? std::nullopt : chosen;
 }
 
-std::optional<std::string> MoleculePicker::add(const char* label) {
+std::optional<std::string> MoleculePicker::add(const char* label, const std::string& sceneFile) {
     if (ImGui::SmallButton(label)) ImGui::OpenPopup("molecules");
-    return drawList();
+    return drawList(sceneFile);
 }
 
 void drawMolecule(const Molecule& shape, ImDrawList& list, ImVec2 low, ImVec2 high) {

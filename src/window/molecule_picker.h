@@ -14,22 +14,22 @@ namespace shoal::window {
 
 class MoleculePicker {
   public:
-    void list(const std::string& sceneFile);  // reads them anew
-
     // A row with a button that says which molecule it is now and lists the others. What was chosen in this
     // frame, as the scene's file names it.
-    std::optional<std::string> choose(const Row& row, const std::string& current);
+    std::optional<std::string> choose(const Row& row, const std::string& current,
+                                      const std::string& sceneFile);
     // A button that lists them, and the same.
-    std::optional<std::string> add(const char* label);
+    std::optional<std::string> add(const char* label, const std::string& sceneFile);
 
   private:
     struct Listed {
         std::string name, words;  // as the scene's file names it; its comment's first sentence
         Molecule shape;           // empty where its file cannot be read: the words say why
     };
-    std::optional<std::string> drawList();
+    void list(const std::string& sceneFile);
+    std::optional<std::string> drawList(const std::string& sceneFile);
 
-    std::vector<Listed> listed_;
+    std::vector<Listed> listed_;  // read when the list opens
 };
 
 // Draws a molecule into a rectangle, seen from the front, the right and above.

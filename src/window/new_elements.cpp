@@ -29,7 +29,7 @@ std::string freeName(const JsonValue& list, const std::string& wanted) {
     return out;
 }
 
-std::vector<std::string> shippedMolecules() {
+static std::vector<std::string> shippedMolecules() {
     std::vector<std::string> files;
     std::error_code code;
     for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {

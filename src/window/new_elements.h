@@ -13,8 +13,7 @@ namespace shoal::window {
 // `wanted`, or that with a number, which no element of a list is called.
 std::string freeName(const JsonValue& list, const std::string& wanted);
 
-// The molecules that ship, and those beside a scene as well, as its file names them.
-std::vector<std::string> shippedMolecules();
+// The molecules that ship, and those beside a scene, as its file names them.
 std::vector<std::string> moleculesFor(const std::string& sceneFile);
 // The file of a molecule that a scene names.
 std::string besideScene(const std::string& molecule, const std::string& sceneFile);

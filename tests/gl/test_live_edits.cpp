@@ -110,7 +110,6 @@ std::vector<Edit> allEdits(JsonValue root) {
     std::vector<Edit> out;
     const Description& keys = describe(static_cast<const Group*>(nullptr));
     for (JsonValue& group : memberOf(root, "groups").items) {
-        JsonValue live = JsonValue::makeObject();
         std::vector<Edit> inside;
         addEdits(keys, group, group.find("name")->text, root, inside);
         for (Edit& edit : inside)
