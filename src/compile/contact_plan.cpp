@@ -86,6 +86,7 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     if (source.particle && source.life) out.growth = source.particle->growth;
     out.spheresOf = plan.vertexCount + int(out.points.size());
     out.masses = massesOf(source.molecule, plan);
+    out.soft = plan.vertexCount > 1 && !plan.rigid;
     out.shapes = shapesOf(out, source.molecule, plan.needs.pins);
     if (out.self) markClose(source.molecule, out);
     return out;

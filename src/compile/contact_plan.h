@@ -32,6 +32,7 @@ struct ContactGroup {
     // kg, the least and the most of what an impulse on a sphere moves: a vertex, or a whole body. Nothing of
     // it that is pinned counts; where all is, both are 0.
     glm::dvec2 masses{0};
+    bool soft = false;  // vertices move against one another: more than one, and no rigid body
     bool triangles = false, self = false;
     std::vector<TrianglePoint> points;  // of the spheres behind those of the vertices
     std::vector<glm::vec4> shapes;      // shaders/contact/grid/shape.glsl

@@ -150,4 +150,32 @@ glm::dvec3 momentum(const std::vector<reference::Sphere>& spheres) {
     return sum;
 }
 
+Molecule tetrahedron(double edge, double mass) {
+    Molecule out;
+    out.name = "tetrahedron";
+    for (const glm::dvec3& corner :
+         {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)})
+        out.vertices.push_back({.position = corner * (edge / std::sqrt(8.0)), .mass = mass / 4});
+    for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+            out.springs.push_back({a, b, 1e6 * mass, 0, {}, {}});
+    return out;
+}
+
+Body::Body(std::span<const reference::Sphere> spheres) : velocity(spheres.front().velocity) {
+    double mass = 0;
+    for (const reference::Sphere& sphere : spheres) {
+        mass += 1 / sphere.weight;
+        center += sphere.position / sphere.weight;
+    }
+    perMass = 1 / mass;
+    center /= mass;
+    glm::dmat3 inertia(0);
+    for (const reference::Sphere& sphere : spheres) {
+        const glm::dvec3 arm = sphere.position - center;
+        inertia += (glm::dmat3(glm::dot(arm, arm)) - glm::outerProduct(arm, arm)) / sphere.weight;
+    }
+    if (spheres.size() > 1) perInertia = glm::inverse(inertia);
+}
+
 }  // namespace shoal::test

@@ -1,6 +1,7 @@
 // Marbles and quads in contact with one another, what the reference makes of them, and what they come to.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,5 +46,25 @@ Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale 
 // Positions and velocities of the vertices of all groups, in their order.
 std::vector<reference::Sphere> statesOf(const Simulation& simulation);
 glm::dvec3 momentum(const std::vector<reference::Sphere>& spheres);
+// A regular one, whose springs make a rigid body of it.
+Molecule tetrahedron(double edge, double mass);
+// Spheres that move as one, in double precision. They start with the velocity of the first, without turning.
+struct Body {
+    double perMass = 0;  // 1/kg
+    glm::dmat3 perInertia{0};
+    glm::dvec3 center{0}, velocity{0}, spin{0};
+
+    explicit Body(std::span<const reference::Sphere> spheres);
+    glm::dvec3 velocityAt(const glm::dvec3& arm) const { return velocity + glm::cross(spin, arm); }
+    void push(const glm::dvec3& impulse, const glm::dvec3& arm) {
+        velocity += impulse * perMass;
+        spin += perInertia * glm::cross(arm, impulse);
+    }
+    // How 1 N s along a direction changes the velocity along it, 1/kg.
+    double weight(const glm::dvec3& direction, const glm::dvec3& arm) const {
+        const glm::dvec3 across = glm::cross(arm, direction);
+        return perMass + glm::dot(across, perInertia * across);
+    }
+};
 
 }  // namespace shoal::test

@@ -17,24 +17,6 @@ namespace {
 
 constexpr double radius = 0.1, step = 0.01, gravity = 9.81;  // m, s, m/s^2
 
-// What moves as one: a marble, or the spheres of a rigid molecule.
-struct Body {
-    double perMass = 0;  // 1/kg
-    glm::dmat3 perInertia{0};
-    dvec3 center{0}, velocity{0}, spin{0};
-
-    dvec3 velocityAt(const dvec3& arm) const { return velocity + glm::cross(spin, arm); }
-    void push(const dvec3& impulse, const dvec3& arm) {
-        velocity += impulse * perMass;
-        spin += perInertia * glm::cross(arm, impulse);
-    }
-    // How 1 N s along a direction changes the velocity along it, 1/kg.
-    double weight(const dvec3& direction, const dvec3& arm) const {
-        const dvec3 across = glm::cross(arm, direction);
-        return perMass + glm::dot(across, perInertia * across);
-    }
-};
-
 struct Cluster {
     std::vector<reference::Sphere> spheres;  // of a molecule one after another
     std::vector<size_t> numbers;             // of the scene's
@@ -109,24 +91,13 @@ struct Cluster {
   private:
     // As the molecules are at the end of the step, before contact: none of them turns.
     void makeBodies(std::vector<Body>& bodies, std::vector<size_t>& bodyOf) const {
+        std::vector<reference::Sphere> ended = spheres;
+        for (reference::Sphere& sphere : ended)
+            sphere.position += step * sphere.velocity;
         for (size_t first = 0, end = 0; first < spheres.size(); first = end) {
-            Body body;
-            double mass = 0;
-            for (; end < spheres.size() && spheres[end].molecule == spheres[first].molecule; ++end) {
-                mass += 1 / spheres[end].weight;
-                body.center += (spheres[end].position + step * spheres[end].velocity) / spheres[end].weight;
+            for (; end < spheres.size() && spheres[end].molecule == spheres[first].molecule; ++end)
                 bodyOf.push_back(bodies.size());
-            }
-            body.perMass = 1 / mass;
-            body.center /= mass;
-            body.velocity = spheres[first].velocity;
-            glm::dmat3 inertia(0);
-            for (size_t i = first; i < end; ++i) {
-                const dvec3 arm = spheres[i].position + step * spheres[i].velocity - body.center;
-                inertia += (glm::dmat3(glm::dot(arm, arm)) - glm::outerProduct(arm, arm)) / spheres[i].weight;
-            }
-            if (end - first > 1) body.perInertia = glm::inverse(inertia);
-            bodies.push_back(body);
+            bodies.emplace_back(std::span(ended).subspan(first, end - first));
         }
     }
 };
@@ -210,15 +181,7 @@ Clusters100 ofBodies(double ratio) {
     Clusters100 out;
     for (size_t mass = 0; mass < masses; ++mass) {
         const double factor = std::pow(ratio, double(mass) / (masses - 1));
-        Molecule tetrahedron;
-        tetrahedron.name = "tetrahedron";
-        for (const dvec3& corner : {dvec3(1, 1, 1), dvec3(1, -1, -1), dvec3(-1, 1, -1), dvec3(-1, -1, 1)})
-            tetrahedron.vertices.push_back(
-                {.position = corner * (3 * radius / std::sqrt(8.0)), .mass = 0.25 * factor});
-        for (int a = 0; a < 4; ++a)
-            for (int b = a + 1; b < 4; ++b)
-                tetrahedron.springs.push_back({a, b, 1e6 * factor, 0, {}, {}});
-        Scene part = sceneOf(tetrahedron, SolverKind::bdf2Xpbd, items[mass]);
+        Scene part = sceneOf(tetrahedron(3 * radius, factor), SolverKind::bdf2Xpbd, items[mass]);
         part.groups[0].name = concat("mass ", mass);
         part.groups[0].contact.emplace().radius = radius;
         if (mass == 0)

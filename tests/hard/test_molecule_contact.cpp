@@ -147,6 +147,28 @@ void judgeRest(const Scene& scene, Judge& judge, int seconds, double most) {
     judge.atMost("dropped", simulation.contact()->dropped(), 0);
 }
 
+Scene leaves(const Solver& solver, uint64_t seed) {
+    Scene scene = test::sceneOf(readMolecule(SHOAL_SOURCE_DIR "/molecules/leaf.json"), solver.kind);
+    scene.seed = seed;
+    Group& group = scene.groups[0];
+    group.count = 60;
+    group.place.kind = Placement::Kind::volume;
+    group.place.items.clear();
+    group.place.box = {{-0.06, 0.05, -0.06}, {0.06, 0.6, 0.06}};
+    group.place.turn = Placement::Turn::any;
+    group.place.scale = {2, 2.6};
+    group.held = false;
+    group.drag = {9, 0.9};
+    group.friction = 0.2;
+    group.restitution = 0;
+    group.contact.emplace().radius = 0.008;
+    scene.gravity = {0, -g, 0};
+    scene.colliders = {wall({0, 0, 0}, {0, 1, 0}, 0)};
+    scene.colliders[0].friction = 0.2;
+    setSteps(scene, 1 / 60.0, 4);
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("hard: two marbles meet", "[hard][molecule contact][fused]") {
@@ -209,6 +231,32 @@ TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
         Scene scene = pile(solver);
         scene.contact.rest = 0.005;
         judgeRest(scene, judge, 9, 0);
+    });
+}
+
+// 60 leaves that fall from a column onto a floor.
+TEST_CASE("hard: a heap of leaves", "[hard][molecule contact][fused]") {
+    test::holds("three heaps of leaves with `rest` are no livelier than without", [](const Solver& solver,
+                                                                                     Judge& judge) {
+        for (const uint64_t seed : {1, 2, 3}) {
+            double speeds[2] = {};  // m/s, RMS of a second: without, with
+            for (const bool rests : {false, true}) {
+                Scene scene = leaves(solver, seed);
+                if (rests) scene.contact.rest = 0.02;
+                Simulation simulation = test::hardSimulation(scene);
+                test::runChecked(simulation, 240);
+                for (int i = 0; i < 12; ++i) {
+                    test::runChecked(simulation, 5);
+                    const Snapshot now = simulation.snapshot(0);
+                    judge.finite(now);
+                    for (const glm::dvec3& v : now.velocities)
+                        speeds[rests] += glm::dot(v, v) / (12.0 * double(now.velocities.size()));
+                }
+                speeds[rests] = std::sqrt(speeds[rests]);
+            }
+            judge.atMost("with `rest` - without, m/s", std::max(speeds[1] - speeds[0], 0.0), 1e-5);
+            judge.atMost("without, m/s", speeds[0], 0.03);
+        }
     });
 }
 

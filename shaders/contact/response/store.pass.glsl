@@ -24,13 +24,20 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
 }
 
 // Returns what acts on the sphere over the next step, N s: what has acted over this one, with a tenth of what was missing, and not much more
-// than a weight. So it is in balance where the impulses are, on a body or a sheet as a whole, too. The sum of what contacts remember one by one is
-// not, where some have grown and others not, and throws a light sphere between heavy ones. `sum`: of its impulses, N s.
-vec3 actsNext(vec3 sum, vec3 missing)
+// than a weight. So it is in balance where the impulses are, on a rigid body as a whole, too. `sum`: of the impulses, N s.
+vec3 followed(vec3 sum, vec3 missing)
 {
     vec3 next = sum - 0.9 * missing;
     float most = 1.5 * length(sum - missing) + restSpeed / max(own.weight, 1e-30);
     return next * min(1.0, most / max(length(next), 1e-30));
+}
+
+// Returns the same for a soft molecule, to which what follows late gives energy: what its contacts remember, `kept`, but no further
+// from the sum than that is long. Where some have grown and others not, what they remember is not in balance, and would throw what is light.
+vec3 nearSum(vec3 sum, vec3 kept)
+{
+    vec3 off = kept - sum;
+    return sum + off * min(1.0, length(sum) / max(length(off), 1e-30));
 }
 
 void main()
@@ -44,7 +51,8 @@ void main()
     vec4 total = totalsAt(slot, 0);
     vec3 missing = total.xyz;
     vec3 shift = totalsAt(slot, 1).xyz;
-    vec3 sum = vec3(0.0);  // of its impulses, N s
+    vec3 sum = vec3(0.0);    // of its impulses, N s
+    vec3 keeps = vec3(0.0);  // as they are remembered
     float part = 1.0;  // of what colliders push, with which the next step begins
     bool isHeld = false;
     for (int e = 0; e < listed; ++e) {
@@ -53,6 +61,7 @@ void main()
         ContactImpulse kept;
         shift += store(slot, other, known, kept);
         sum += known.impulse;
+        keeps += kept.impulse;
         putPartners(sphere, e, uint(sphereOf(other)));
         putKeptImpulses(sphere, e, firstPart(kept));
         putKeptAnchors(sphere, e, secondPart(kept));
@@ -66,6 +75,7 @@ void main()
             vec4 push = colliderImpulsesAt(memory, k);
             sum += push.xyz;
             push.xyz *= part;
+            keeps += push.xyz;
             isHeld = isHeld || push != vec4(0.0);
             putColliderImpulses(memory, k, push);
             putOldNormals(memory, k, vec4(colliderNear(sphere, k).normal, 0.0));
@@ -81,6 +91,7 @@ void main()
     putTotals(slot, 1, vec4(shift, 0.0));
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-    vec3 acts = listed > 0 || isHeld ? actsNext(sum, missing) : vec3(0.0);
+    vec3 acts = isSoft(own) ? nearSum(sum, keeps) : followed(sum, missing);
+    if (listed == 0 && !isHeld) acts = vec3(0.0);
     putWarmStart(memoryRow(slot), vec4(acts, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));
 }

@@ -90,7 +90,7 @@ void ContactData::giveTables() {
         shapes.insert(shapes.end(), group.shapes.begin(), group.shapes.end());
     }
     for (const glm::vec2& pair : contact->pairs)
-        materials.emplace_back(pair, 0, 0);
+        materials.emplace_back(pair, contact->groups[materials.size() / contact->groups.size()].soft, 0);
     arrays.give("shapes", shapes.data(), shapes.size());
     arrays.give("materials", materials.data(), materials.size());
     if (textures && remembers) arrays.alias("oldImpulses", "impulses");
