@@ -185,6 +185,11 @@ class Describe {
         last().usual = words;
         return *this;
     }
+    // Sets what acts where the key before is left out, and is no default that a description can tell.
+    Describe& acts(JsonValue (*instead)(const S&)) {
+        last().acts = [instead](const void* object) { return instead(*static_cast<const S*>(object)); };
+        return *this;
+    }
     // Sets how the key before is read instead.
     template <typename Context>
     Describe& reads(void (*read)(JsonReader&, S&, Context&)) {

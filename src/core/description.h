@@ -85,6 +85,7 @@ struct Key {
     bool notEmpty = false;    // a text has at least one character
     std::vector<Condition> only;
     std::string usual;  // what a table says of its default, where that is not a value
+    std::function<JsonValue(const void* object)> acts;  // in its place where it is left out; null: nothing
     std::vector<std::string> words;
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives

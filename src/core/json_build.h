@@ -65,4 +65,13 @@ JsonValue arrayOf(const std::vector<T>& items, JsonValue (*json)(const std::type
     return out;
 }
 
+// ---- Changes of what there is
+
+// In place of what an object says of the key, if anything.
+void setMember(JsonValue& object, const std::string& key, JsonValue value);
+void leaveOut(JsonValue& object, const std::string& key);
+// The object that another says of the key; an empty one is added where it says none.
+JsonValue& memberOf(JsonValue& object, const std::string& key);
+std::vector<double> numbersOf(const JsonValue& value);  // of one or of a list; none: it is something else
+
 }  // namespace shoal

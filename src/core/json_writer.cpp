@@ -146,4 +146,30 @@ std::string writeJsonLine(const JsonValue& value) {
     return out;
 }
 
+// ---- Changes
+
+std::vector<double> numbersOf(const JsonValue& value) {
+    std::vector<double> out;
+    if (value.kind == JsonValue::Kind::number) out.push_back(value.number);
+    for (const JsonValue& item : value.items)
+        if (item.kind == JsonValue::Kind::number) out.push_back(item.number);
+    return out.size() == std::max<size_t>(1, value.items.size()) ? out : std::vector<double>();
+}
+
+void setMember(JsonValue& object, const std::string& key, JsonValue value) {
+    if (const JsonValue* found = object.find(key))
+        const_cast<JsonValue&>(*found) = std::move(value);
+    else
+        object.add(key, std::move(value));
+}
+
+void leaveOut(JsonValue& object, const std::string& key) {
+    std::erase_if(object.members, [&](const JsonMember& member) { return member.first == key; });
+}
+
+JsonValue& memberOf(JsonValue& object, const std::string& key) {
+    if (!object.find(key)) object.add(key, JsonValue::makeObject());
+    return const_cast<JsonValue&>(*object.find(key));
+}
+
 }  // namespace shoal

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "core/cache_folder.h"
+#include "core/data_paths.h"
 #include "core/error.h"
 #include "core/printable.h"
 #include "gpu/current.h"
@@ -186,6 +188,13 @@ static const KindRow& rowOf(ContextKind kind) {
 
 const char* name(ContextKind kind) {
     return rowOf(kind).name;
+}
+
+ContextOptions contextOptions() {
+    ContextOptions out;
+    out.shaders = shaderRoot();
+    out.cache = cacheFolder();
+    return out;
 }
 
 ContextKind contextKind(const std::string& word) {

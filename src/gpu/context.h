@@ -87,6 +87,8 @@ struct ContextOptions {
     std::string shaders = {};   // folder of the shaders that programs are made of
     std::string cache = {};     // folder in which linked programs are kept; empty: nowhere
 };
+// Of a context that makes programs of the shaders that ship, and keeps them in the user's cache.
+ContextOptions contextOptions();
 
 // How often all loops of a shader together turn on Mesa's CPU rasterisers, which then leave every loop after
 // one more turn and say nothing. A loop counts once more than it turns.

@@ -8,10 +8,10 @@
 
 #include <unistd.h>
 
+#include "core/data_paths.h"
 #include "gpu/current.h"
 #include "python/arguments.h"
 #include "python/picture.h"
-#include "run/data_paths.h"
 #include "scene/json/scene_file.h"
 #include "simulate/checkpoint.h"
 
@@ -58,7 +58,7 @@ Device& deviceOf(std::optional<int> number) {
     const std::lock_guard lock(devicesGuard);
     Device*& device = devices()[number];
     if (!device) {
-        gpu::ContextOptions options = contextOptions();
+        gpu::ContextOptions options = gpu::contextOptions();
         options.visible = false;
         options.device = number;
         if (number) options.kind = gpu::ContextKind::egl;

@@ -94,6 +94,11 @@ class Renderer {
     // Another colour, roughness, translucency, opacity or growth for a group of molecules, likewise.
     bool changeLooks(size_t group, const Group& looks) { return groups_.changeLooks(group, looks); }
 
+    // Draws these instead of the scene's. What stands still keeps its shadow on far ground.
+    void changeColliders(const std::vector<Collider>& colliders) {
+        surfaces_.changeColliders(*context_, colliders, lighting_);
+    }
+
     gpu::PassTimers& timers() { return timers_; }
     // How many points and triangles of molecules the last picture has; waits for it.
     uint64_t drawnPrimitives() const { return primitives_.last(); }

@@ -116,7 +116,8 @@ SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Mode
 }
 
 SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
-                             const ShadowMap* shadow, bool grid) {
+                             const ShadowMap* shadow, bool grid)
+    : shadows_(shadow != nullptr), grid_(grid) {
     for (const Model& model : scene.models) {
         if (!model.draw || model.mesh.triangles.empty()) continue;
         Drawn drawn = drawnModel(context, model);
@@ -138,7 +139,14 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Li
         }
         add(context, mesh, std::move(drawn), model.name.c_str());
     }
-    for (const Collider& collider : scene.colliders) {
+    models_ = surfaces_.size();
+    changeColliders(context, scene.colliders, lighting);
+}
+
+void SurfaceDrawer::changeColliders(gpu::Context& context, const std::vector<Collider>& colliders,
+                                    const Lighting& lighting) {
+    surfaces_.erase(surfaces_.begin() + ptrdiff_t(models_), surfaces_.end());
+    for (const Collider& collider : colliders) {
         if (!collider.draw) continue;
         const SurfaceMesh mesh = meshOf(collider);
         if (mesh.indices.empty()) continue;
@@ -150,14 +158,14 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Li
         if (const auto* plane = kindOf<PlaneCollider>(*collider.shape)) {
             drawn.plane = *plane;
             drawn.casts = false;
-            drawn.detail = grid ? 0.35f : 0.9f;
+            drawn.detail = grid_ ? 0.35f : 0.9f;
         } else {
             look.material.roughness = 0.5;
         }
         drawn.looks.push_back(look);
         add(context, mesh, std::move(drawn), collider.name.c_str());
     }
-    choosePrograms(context, lighting, shadow != nullptr, grid);
+    choosePrograms(context, lighting);
 }
 
 void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label) {
@@ -187,7 +195,7 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
 }
 
 // A program for each set of images that a material has.
-void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighting, bool shadows, bool grid) {
+void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighting) {
     for (Drawn& surface : surfaces_) {
         for (Look& look : surface.looks) {
             const SurfaceMaterial& material = look.material;
@@ -205,9 +213,9 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
             look.lit = &programs_.get(context, lit);
             if (surface.plane) {
                 look.lit->use();
-                look.lit->set("grid", int(grid));
+                look.lit->set("grid", int(grid_));
             }
-            if (!shadows || !surface.casts) continue;
+            if (!shadows_ || !surface.casts) continue;
             look.depth = &programs_.get(context, {"render/surface.vert",
                                                   "render/surface_shadow.frag",
                                                   {gpu::constant("HOLES", hasHoles(material)),

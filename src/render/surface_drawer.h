@@ -22,6 +22,10 @@ class SurfaceDrawer {
     SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
                   const ShadowMap* shadow, bool grid);
 
+    // Draws these instead of the scene's.
+    void changeColliders(gpu::Context& context, const std::vector<Collider>& colliders,
+                         const Lighting& lighting);
+
     static bool blends(const Scene& scene);  // whether a model has a part that is blended with what is behind
     bool blends() const { return blends_; }
     bool refracts() const { return refracts_; }  // then what is not blended has to be at hand as a picture
@@ -61,7 +65,7 @@ class SurfaceDrawer {
 
     static Drawn drawnModel(gpu::Context& context, const Model& model);
     void add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label);
-    void choosePrograms(gpu::Context& context, const Lighting& lighting, bool shadows, bool grid);
+    void choosePrograms(gpu::Context& context, const Lighting& lighting);
     void submit(const Drawn& surface, const Look& look) const;
     void drawLook(const Drawn& surface, const Look& look, const Eye& eye, const Lighting& lighting,
                   double time) const;
@@ -69,7 +73,9 @@ class SurfaceDrawer {
     void placePlane(const gpu::Program& program, const PlaneCollider& plane, const Eye& eye) const;
 
     gpu::Programs programs_;
-    std::vector<Drawn> surfaces_;
+    std::vector<Drawn> surfaces_;  // the models, then the colliders
+    size_t models_ = 0;
+    bool shadows_, grid_;
     bool blends_ = false, refracts_ = false;
 };
 

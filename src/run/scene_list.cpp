@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/data_paths.h"
 #include "core/json.h"
 #include "core/printable.h"
-#include "run/data_paths.h"
 
 namespace shoal {
 

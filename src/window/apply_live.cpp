@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "core/json_build.h"
 #include "core/json_edit.h"
 #include "scene/json/scene_file.h"
 
@@ -12,12 +13,9 @@ namespace {
 
 using Keys = std::initializer_list<const char*>;
 
-bool contains(Keys keys, const std::string& name) {
-    return std::find(keys.begin(), keys.end(), name) != keys.end();
-}
-
 JsonValue without(Keys keys, JsonValue object) {
-    std::erase_if(object.members, [&](const JsonMember& member) { return contains(keys, member.first); });
+    for (const char* key : keys)
+        leaveOut(object, key);
     return object;
 }
 
@@ -61,14 +59,17 @@ SceneDifference differenceOf(const JsonValue& before, const JsonValue& after) {
     return out;
 }
 
+std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        if (plan.groups[g].index == group) return g;
+    return {};
+}
+
 bool applyLive(const std::vector<SceneDifference::Live>& edits, const std::vector<Group>& before,
                const std::vector<Group>& after, Simulation& simulation, Renderer& renderer) {
-    const std::vector<GroupPlan>& groups = simulation.plan().groups;
     const auto apply = [&](const SceneDifference::Live& edit, const std::vector<Group>& to) {
-        for (size_t g = 0; g < groups.size(); ++g)
-            if (groups[g].index == edit.group)
-                return applyEdit(edit, before[edit.group], to[edit.group], g, simulation, renderer);
-        return false;  // a group without molecules, which the plan leaves out
+        const std::optional<size_t> g = planGroupOf(simulation.plan(), edit.group);
+        return g && applyEdit(edit, before[edit.group], to[edit.group], *g, simulation, renderer);
     };
     for (size_t i = 0; i < edits.size(); ++i) {
         if (apply(edits[i], after)) continue;

@@ -1,6 +1,7 @@
 // Edits of a scene that a run takes while it goes on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/json.h"
@@ -21,6 +22,9 @@ struct SceneDifference {
     bool simulation = false;  // anything else
 };
 SceneDifference differenceOf(const JsonValue& before, const JsonValue& after);
+
+// A group's index in a plan, which leaves out groups without molecules.
+std::optional<size_t> planGroupOf(const Plan& plan, size_t group);
 
 // Puts the looks, lives and schools in which the groups of two scenes differ into the run of the first. The
 // run is then what it would be with a simulation of the second that goes on from its state. False: another

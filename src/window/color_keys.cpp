@@ -11,7 +11,6 @@
 #include "scene/particle.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
-#include "window/scene_document.h"
 
 namespace shoal::window {
 

@@ -17,26 +17,56 @@ namespace {
 
 constexpr float labelWidth = 136;  // points
 
-ImGuiSliderFlags flagsOf(const Row& row) {
-    return ImGuiSliderFlags_AlwaysClamp | (row.steep ? ImGuiSliderFlags_Logarithmic : 0);
-}
-
 // Labels are unique within a node only together with what they belong to, which the caller has pushed.
 std::string hidden(const Row& row) {
     return std::string("##") + row.label;
 }
 
-bool slideShown(const Row& row, const Limit& limit, double* values, int count) {
-    const double least = limit.least * row.scale, most = limit.most * row.scale;
-    const bool changed = ImGui::SliderScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count,
-                                              &least, &most, row.format, flagsOf(row));
+// What was typed beyond a limit last.
+struct Beyond {
+    ImGuiID row = 0;
+    std::string words;
+};
+
+Beyond& beyond() {
+    static Beyond out;
+    return out;
+}
+
+// Draws one number or several, which move within `reach` and are typed within `limit`.
+template <typename Draw>
+bool drawShown(const Row& row, const Limit& reach, const Limit& limit, double* values, int count,
+               const Draw& draw) {
+    const double least = reach.least * row.scale, most = reach.most * row.scale;
+    std::array<double, 4> shown{};
+    for (int i = 0; i < count; ++i)
+        shown[size_t(i)] = values[i] * row.scale;
+    const std::array<double, 4> before = shown;
+    const bool changed = draw(shown.data(), &least, &most);
     tip(row.tip);
+    const ImGuiID id = ImGui::GetID(hidden(row).c_str());
+    if (changed) beyond() = {};
+    for (int i = 0; i < count; ++i) {
+        if (shown[size_t(i)] == before[size_t(i)]) continue;
+        // an end of a slider is the limit itself, despite rounding
+        const double wanted = shown[size_t(i)] / row.scale;
+        const double rounding = 1e-9 * std::max(std::abs(limit.least), std::abs(limit.most));
+        values[i] = std::clamp(wanted, limit.least, limit.most);
+        if (std::abs(values[i] - wanted) > rounding)
+            beyond() = {id, concat(plain(shown[size_t(i)]), " is beyond ", plain(values[i] * row.scale),
+                                   ", the ", wanted > limit.most ? "most" : "least", " ", limit.words)};
+    }
+    if (beyond().row == id) ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s", beyond().words.c_str());
     return changed;
 }
 
-// Converts a shown value to a stored one: an end of the slider is the limit itself, despite rounding.
-double stored(const Row& row, const Limit& limit, double shown) {
-    return std::clamp(shown / row.scale, limit.least, limit.most);
+bool slideShown(const Row& row, const Limit& reach, const Limit& limit, double* values, int count) {
+    beginRow(row);
+    return drawShown(
+        row, reach, limit, values, count, [&](double* shown, const double* least, const double* most) {
+            return ImGui::SliderScalarN(hidden(row).c_str(), ImGuiDataType_Double, shown, count, least, most,
+                                        row.format, row.steep ? ImGuiSliderFlags_Logarithmic : 0);
+        });
 }
 
 }  // namespace
@@ -54,6 +84,11 @@ void beginRow(const Row& row) {
     ImGui::TextUnformatted(row.label);
     tip(row.tip);
     besideLabel();
+    if (row.says) {
+        ImGui::Checkbox("##says", row.says);
+        tip(row.tip);
+        ImGui::SameLine();
+    }
     ImGui::SetNextItemWidth(-1);
 }
 
@@ -61,58 +96,33 @@ void besideLabel() {
     ImGui::SameLine(points(labelWidth));
 }
 
-bool slide(const Row& row, const Limit& limit, double& value) {
-    beginRow(row);
-    double shown = value * row.scale;
-    if (!slideShown(row, limit, &shown, 1)) return false;
-    value = stored(row, limit, shown);
-    return true;
+bool slide(const Row& row, const Limit& reach, const Limit& limit, double& value) {
+    return slideShown(row, reach, limit, &value, 1);
 }
 
-bool slide(const Row& row, const Limit& limit, int& value) {
-    beginRow(row);
-    const int least = int(limit.least), most = int(limit.most);
-    const bool changed = ImGui::SliderInt(hidden(row).c_str(), &value, least, most, row.format, flagsOf(row));
-    tip(row.tip);
-    return changed;
-}
-
-bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span) {
-    beginRow(row);
-    std::array<double, 2> shown{span.x * row.scale, span.y * row.scale};
-    if (!slideShown(row, limit, shown.data(), 2)) return false;
-    const glm::dvec2 wanted(stored(row, limit, shown[0]), stored(row, limit, shown[1]));
-    if (row.free) {
-        span = wanted;
-        return true;
-    }
-    const bool least = shown[0] != span.x * row.scale;  // is the one that moved
-    span = least ? glm::dvec2(wanted.x, std::max(wanted.x, span.y))
-                 : glm::dvec2(std::min(span.x, wanted.y), wanted.y);
+bool slideSpan(const Row& row, const Limit& reach, const Limit& limit, glm::dvec2& span) {
+    const glm::dvec2 before = span;
+    if (!slideShown(row, reach, limit, &span.x, 2)) return false;
+    if (!row.free && span.x != before.x) span.y = std::max(span.x, span.y);
+    if (!row.free && span.x == before.x) span.x = std::min(span.x, span.y);
     return true;
 }
 
 // Several numbers with all their digits have no room beside a label, and take a line of their own.
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed) {
-    if (count == 1) {
+    if (count == 1 || row.says) {
         beginRow(row);
     } else {
         ImGui::TextUnformatted(row.label);
         tip(row.tip);
-        ImGui::SetNextItemWidth(-1);
     }
-    const double least = limit.least * row.scale, most = limit.most * row.scale;
-    std::array<double, 4> shown{};
-    for (int i = 0; i < count; ++i)
-        shown[size_t(i)] = values[i] * row.scale;
-    const std::array<double, 4> before = shown;
-    const bool changed =
-        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, shown.data(), count, float(speed),
-                           &least, &most, row.format, ImGuiSliderFlags_AlwaysClamp);
-    tip(row.tip);
-    for (int i = 0; i < count; ++i)
-        if (shown[size_t(i)] != before[size_t(i)]) values[i] = stored(row, limit, shown[size_t(i)]);
-    return changed;
+    if (count > 1 && row.says) ImGui::NewLine();
+    if (count > 1) ImGui::SetNextItemWidth(-1);
+    return drawShown(row, limit, limit, values, count,
+                     [&](double* shown, const double* least, const double* most) {
+                         return ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, shown, count,
+                                                   float(speed), least, most, row.format);
+                     });
 }
 
 bool tick(const Row& row, bool& value) {
@@ -177,9 +187,10 @@ bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles) {
         if (!upright) angles.y = std::atan2(direction.x, -direction.z);
     }
     const double quarter = 90 / degrees;
-    bool changed = slide({"elevation", tip, "%.1f\xC2\xB0", false, degrees}, {-quarter, quarter}, angles.x);
+    const Limit up{-quarter, quarter, "there is"}, around{-2 * quarter, 2 * quarter, "around"};
+    bool changed = slide({"elevation", tip, "%.1f\xC2\xB0", false, degrees}, up, up, angles.x);
     changed |= slide({"heading", "Which way around: 0 is -z, 90 is +x.", "%.1f\xC2\xB0", false, degrees},
-                     {-2 * quarter, 2 * quarter}, angles.y);
+                     around, around, angles.y);
     if (!changed) return false;
     direction = glm::normalize(directionOf(angles));
     for (int i = 0; i < 3; ++i)  // straight up is written as such

@@ -1,6 +1,7 @@
 // Rows of the editor: a label with a tip at the left, what is edited at the right, all in one column however
 // deep they are; several numbers to drag are below their label. Each says whether the user changed it in this
-// frame. Numbers stay within their limit, also when they are typed (Ctrl and a click).
+// frame. Numbers stay within their limit, also when they are typed (Ctrl and a click); a line below the row
+// says so of the number that was typed last.
 #pragma once
 
 #include <optional>
@@ -19,6 +20,7 @@ constexpr double degrees = 57.29577951308232;  // of a radian
 
 struct Limit {
     double least = 0, most = 1;
+    const char* words = "a file may say";  // which limit it is
 };
 
 struct Row {
@@ -28,15 +30,17 @@ struct Row {
     bool steep = false;           // logarithmic: small numbers have more room
     double scale = 1;             // what is shown is this times what is stored
     bool free = false;            // slideSpan: two numbers that do not push each other
+    bool* says = nullptr;         // a box to tick before the value: whether there is one
 };
 
 // By its description: of a key whose name is one word, and all that it may say.
 Row rowOf(const Key& key);
 Limit limitOf(const Key& key);
 
-bool slide(const Row& row, const Limit& limit, double& value);
-bool slide(const Row& row, const Limit& limit, int& value);
-bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
+// `reach`: of the slider, which a number that is typed may leave.
+bool slide(const Row& row, const Limit& reach, const Limit& limit, double& value);
+// Least and most, which push each other.
+bool slideSpan(const Row& row, const Limit& reach, const Limit& limit, glm::dvec2& span);
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
 bool type(const Row& row, std::string& text);  // changes when the user is done with it
@@ -59,7 +63,7 @@ void tip(const std::string& words);
 std::string plain(double number);             // four digits
 std::string inWords(const std::string& key);  // "separationRadius" as "separation radius"
 
-// Draws the label of a row; the widget that is drawn next takes the rest of it.
+// Draws the label of a row and its box to tick; the widget that is drawn next takes the rest of it.
 void beginRow(const Row& row);
 void besideLabel();  // what is drawn next stands where the widgets of rows do
 

@@ -76,7 +76,7 @@ void Input::listen() {
     glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);
 }
 
-void Input::next() {
+void Input::next(bool chooses) {
     if (frames_.is_open() && waiting_.empty()) frames_.put('.').flush();
     pressed_.clear();
     Taken taken;
@@ -85,6 +85,8 @@ void Input::next() {
         waiting_.pop_front();
         take(event, taken);
     }
+    for (const int key : {GLFW_KEY_SPACE, GLFW_KEY_HOME, GLFW_KEY_ESCAPE})
+        if (chooses) pressed_.erase(key);
 }
 
 // Whether this frame takes the event. Other events after a move or the wheel wait for the next frame, where

@@ -54,6 +54,8 @@ Interface::Interface(GLFWwindow* window, std::optional<double> scale)
     : window_(window), scale_(scale), outlines_(systemFont()) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
+    // Rows are reached by Tab and arrows; other keys stay those of the window meanwhile.
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavNoCaptureKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(window, false);
     input_ = std::make_unique<Input>(window);
     ImGui_ImplOpenGL3_Init("#version 330");
@@ -102,7 +104,8 @@ float points(float count) {
 void Interface::begin() {
     const Density current = density();
     if (!(current == made_)) makeFont(current);
-    input_->next();
+    const bool chooses = ImGui::GetIO().NavVisible || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    input_->next(chooses);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     input_->settle();

@@ -32,7 +32,9 @@ class Input {
     Input(const Input&) = delete;
     Input& operator=(const Input&) = delete;
 
-    void next();    // what this frame holds; once a frame
+    // What this frame holds; once a frame. `chooses`: the user moves among rows or in what has popped up,
+    // where Space, Home and Escape are not the window's.
+    void next(bool chooses);
     void settle();  // after ImGui's backend has asked the window itself, which knows only how things are now
 
     // ---- Keys, by GLFW's numbers

@@ -1,10 +1,11 @@
-// The places that rows of a scene name, as handles in the picture.
+// The places and turns that rows of a scene name, and their handles in the picture.
 #include <algorithm>
 #include <cmath>
 
 #include "core/json_build.h"
+#include "window/edit_widgets.h"
 #include "window/json_rows.h"
-#include "window/scene_document.h"
+#include "window/new_elements.h"
 
 namespace shoal::window {
 
@@ -23,11 +24,6 @@ std::optional<glm::dvec3> vectorOf(const JsonValue* value) {
     return glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
 
-// To a millimetre, and as JSON.
-JsonValue rounded(const glm::dvec3& place) {
-    return toJson(glm::round(place * 1e3) / 1e3);
-}
-
 }  // namespace
 
 std::pair<glm::dvec3, double> axisAndAngle(const JsonValue& value) {
@@ -41,6 +37,18 @@ std::pair<glm::dvec3, double> axisAndAngle(const JsonValue& value) {
     axis = vectorOf(value.find("axis")).value_or(axis);
     if (const JsonValue* given = value.find("angle")) angle = given->number;
     return {axis, angle};
+}
+
+// An axis and an angle, whether the file has these or a quaternion.
+bool JsonRows::drawRotation(Row row, JsonValue& value) {
+    auto [axis, angle] = axisAndAngle(value);
+    angle *= degrees;
+    const std::string label = concat(row.label, ", axis");
+    row.label = label.c_str(), row.format = "%.5g";
+    bool changed = drag(row, {-1e3, 1e3}, &axis.x, 3, 0.01);
+    changed |= drag({"angle", row.tip, "%.5g\xC2\xB0"}, {-360, 360, "there is"}, &angle, 1, 1);
+    if (changed) value = object(shoal::key("axis", axis), shoal::key("angle", angle / degrees));
+    return changed;
 }
 
 void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& object) {
@@ -72,17 +80,18 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
 void JsonRows::move(const Place& place, const GizmoHandle& to) {
     JsonValue& object = *place.object;
     if (place.key.empty()) {
-        setMember(object, "low", rounded(to.position - *to.reach));
-        setMember(object, "high", rounded(to.position + *to.reach));
+        setMember(object, "low", toJson(toMillimetre(to.position - *to.reach)));
+        setMember(object, "high", toJson(toMillimetre(to.position + *to.reach)));
         return;
     }
-    if (to.position != place.handle.position) setMember(object, place.key, rounded(to.position));
+    if (to.position != place.handle.position) setMember(object, place.key, toJson(toMillimetre(to.position)));
     if (to.reach != place.handle.reach && to.round)
         setMember(object, "radius", toJson(std::round(to.reach->x * 1e4) / 1e4));
-    if (to.reach != place.handle.reach && !to.round) setMember(object, "size", rounded(*to.reach * 2.0));
+    if (to.reach != place.handle.reach && !to.round)
+        setMember(object, "size", toJson(toMillimetre(*to.reach * 2.0)));
     if (!to.turn || to.turn == place.handle.turn) return;
     setMember(object, "rotation",
-              shoal::object(shoal::key("axis", rounded(glm::axis(*to.turn))),
+              shoal::object(shoal::key("axis", toMillimetre(glm::axis(*to.turn))),
                             shoal::key("angle", std::round(glm::angle(*to.turn) * 1e4) / 1e4)));
 }
 

@@ -13,7 +13,6 @@
 #include "window/color_keys.h"
 #include "window/edit_widgets.h"
 #include "window/new_elements.h"
-#include "window/scene_document.h"
 
 namespace shoal::window {
 
@@ -96,6 +95,7 @@ std::optional<JsonValue> JsonRows::addedTo(const Key& key, const JsonValue& list
         if (ImGui::Selectable(kind->name().c_str())) out = smallestObject(element, *kind, text());
         tip(kind->sentence());
     }
+    if (out && key.name == "colliders") standInView(*out, *scene_);
     ImGui::EndPopup();
     return out;
 }
@@ -109,12 +109,12 @@ TextOf JsonRows::text() const {
 
 // ---- Rows
 
-bool JsonRows::draw(const Description& keys, JsonValue& object) {
+bool JsonRows::draw(const Description& keys, JsonValue& object, const void* runs) {
     bool changed = false;
     for (const Key& key : keys.keys()) {
         if (key.name == "$schema" || key.name == "format" || !meansSomething(keys, key, object)) continue;
         ImGui::PushID(key.name.c_str());
-        changed |= key.kind == Kind::variant ? drawKind(key, object) : drawKey(keys, key, object);
+        changed |= key.kind == Kind::variant ? drawKind(key, object, runs) : drawKey(keys, key, object, runs);
         ImGui::PopID();
     }
     if (!changed) return false;
@@ -125,32 +125,44 @@ bool JsonRows::draw(const Description& keys, JsonValue& object) {
     return true;
 }
 
+// What a key begins with: what acts now, if anything does.
+JsonValue JsonRows::ticked(const Key& key, const void* runs) const {
+    JsonValue out;
+    if (runs && key.acts) out = key.acts(runs);
+    const void* value = runs && key.kind->write && key.kind != Kind::byHand ? key.value(runs) : nullptr;
+    if (value && key.kind->numbers) out = key.kind->write(key, value, nullptr, scene_);
+    const std::vector<double> numbers = numbersOf(out);
+    const bool finite =
+        std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+    return out.kind == Json::null || !finite ? key.kind->least(key, text()) : out;
+}
+
 // The row of a key changes what the object says of it, or whether it says anything.
-bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object) {
+bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object, const void* runs) {
     JsonValue* found = object.find(key.name) ? &memberOf(object, key.name) : nullptr;
     JsonValue fresh = keys.usualValue(key);
-    std::string label = inWords(key.name);
     const bool tree = key.kind == Kind::list || (key.kind == Kind::object && !key.member.optional);
-    if (tree && !found) fresh = key.kind == Kind::list ? JsonValue::makeArray() : JsonValue::makeObject();
     const bool mayBeEmpty = key.kind == Kind::text && !key.needed;
-    if (mayBeEmpty && !found) fresh = JsonValue::makeString("");
     // what has no value of its own where it is left out gets a box to tick
-    if (!tree && !mayBeEmpty && !key.needed && keys.usualValue(key).kind == Json::null) {
-        bool says = found != nullptr;
-        bool changed = false;
-        const bool node = found && key.kind->row(key, *found) == RowForm::node;
-        if (node)
-            changed = drawNode(key, *found, &says);
-        else if (tick({label.c_str(), key.says.sentence.c_str()}, says) && says)
-            setMember(object, key.name, key.kind->least(key, text())), fresh_ = ImGui::GetID("node");
-        if (!says) leaveOut(object, key.name);
-        if (changed || says != (found != nullptr)) return true;
-        if (!found || node) return false;
-        label.clear();
+    const bool ticks = !tree && !mayBeEmpty && !key.needed && fresh.kind == Json::null;
+    if (tree && !found) fresh = key.kind == Kind::list ? JsonValue::makeArray() : JsonValue::makeObject();
+    if (mayBeEmpty && !found) fresh = JsonValue::makeString("");
+    const void* within = runs && key.kind != Kind::byHand ? key.value(runs) : nullptr;
+    bool says = found != nullptr;
+    if (ticks && !found) {
+        const std::string label = inWords(key.name);
+        if (!tick({label.c_str(), key.says.sentence.c_str()}, says)) return false;
+        setMember(object, key.name, ticked(key, runs)), fresh_ = ImGui::GetID("node");
+        return true;
     }
     JsonValue& value = found ? *found : fresh;
     if (inList_) addPlaces(key, value, object);
-    if (!(tree ? drawNode(key, value, nullptr) : drawPresent(keys, key, value, label))) return false;
+    bool* const mayTick = ticks ? &says : nullptr;
+    const bool node = tree || (ticks && key.kind->row(key, value) == RowForm::node);
+    const bool changed =
+        node ? drawNode(key, value, within, mayTick) : drawPresent(keys, key, value, mayTick);
+    if (ticks && !says) leaveOut(object, key.name);
+    if (ticks || !changed) return changed || says != (found != nullptr);
     const bool empty = tree ? value.items.empty() && value.members.empty() : mayBeEmpty && value.text.empty();
     if (empty && !key.needed)
         leaveOut(object, key.name);
@@ -161,9 +173,10 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
 
 // A node that holds a list or the keys of an object. `says`: whether the file says anything of it, which a
 // box to tick changes.
-bool JsonRows::drawNode(const Key& key, JsonValue& value, bool* says) {
+bool JsonRows::drawNode(const Key& key, JsonValue& value, const void* runs, bool* says) {
     const std::string count = key.kind == Kind::list ? concat(" (", value.items.size(), ")") : std::string();
-    const bool starts = std::find(opens.begin(), opens.end(), key.name) != opens.end();
+    const bool starts =
+        !value.items.empty() && std::find(opens.begin(), opens.end(), key.name) != opens.end();
     if (fresh_ == ImGui::GetID("node")) ImGui::SetNextItemOpen(true), fresh_ = 0;
     const bool open = ImGui::TreeNodeEx(
         concat(inWords(key.name), count, "###node").c_str(),
@@ -174,21 +187,23 @@ bool JsonRows::drawNode(const Key& key, JsonValue& value, bool* says) {
         ImGui::Checkbox("##says", says);
     }
     if (!open) return false;
-    const bool changed = key.kind == Kind::list ? drawList(key, value) : draw(*key.objects[0], value);
+    const bool changed =
+        key.kind == Kind::list ? drawList(key, value, runs) : draw(*key.objects[0], value, runs);
     ImGui::TreePop();
     return changed;
 }
 
-bool JsonRows::drawPresent(const Description& keys, const Key& key, JsonValue& value,
-                           const std::string& label) {
-    const Row row{label.c_str(), key.says.sentence.c_str()};
+bool JsonRows::drawPresent(const Description& keys, const Key& key, JsonValue& value, bool* says) {
+    const std::string label = inWords(key.name);
+    Row row{label.c_str(), key.says.sentence.c_str()};
+    row.says = says;
     switch (key.kind->row(key, value)) {
     case RowForm::tick:
         return tick(row, value.boolean);
     case RowForm::word:
         return drawWord(row, value, key.words);
     case RowForm::text:
-        return drawText(key, value, label);
+        return drawText(key, value, row);
     case RowForm::texts:
         return drawTexts(row, value);
     case RowForm::color: {
@@ -205,31 +220,22 @@ bool JsonRows::drawPresent(const Description& keys, const Key& key, JsonValue& v
     case RowForm::box: {
         bool changed = false;
         for (const char* end : {"low", "high"}) {
-            if (value.find(end)) changed |= drawNumbers(key, memberOf(value, end), concat(label, ", ", end));
+            const std::string own = concat(label, ", ", end);
+            row.label = own.c_str();
+            if (value.find(end)) changed |= drawNumbers(key, memberOf(value, end), row);
+            row.says = nullptr;
         }
         return changed;
     }
     case RowForm::rotation:
-        return drawRotation(key, value, label);
+        return drawRotation(row, value);
     case RowForm::direction:
-        return drawDirection(key, value);
+        return drawDirection(row, value);
     case RowForm::span:
-        return drawSpan(keys, key, value, label);
+        return drawSpan(keys, key, value, row);
     default:
-        return drawNumbers(key, value, label);
+        return drawNumbers(key, value, row);
     }
-}
-
-// An axis and an angle, whether the file has these or a quaternion.
-bool JsonRows::drawRotation(const Key& key, JsonValue& value, const std::string& label) {
-    auto [axis, angle] = axisAndAngle(value);
-    angle *= degrees;
-    const std::string axisLabel = label.empty() ? "axis" : label + ", axis";
-    const char* sentence = key.says.sentence.c_str();
-    bool changed = drag({axisLabel.c_str(), sentence, "%.5g"}, {-1e3, 1e3}, &axis.x, 3, 0.01);
-    changed |= drag({"angle", sentence, "%.5g\xC2\xB0"}, {-360, 360}, &angle, 1, 1);
-    if (changed) value = object(shoal::key("axis", axis), shoal::key("angle", angle / degrees));
-    return changed;
 }
 
 // Between commas.
@@ -242,22 +248,25 @@ bool JsonRows::drawTexts(const Row& row, JsonValue& value) {
     return true;
 }
 
-bool JsonRows::drawDirection(const Key& key, JsonValue& value) {
+bool JsonRows::drawDirection(const Row& row, JsonValue& value) {
     const std::vector<double> stored = numbersOf(value);
     if (stored.size() != 3) return false;
     glm::dvec3 direction(stored[0], stored[1], stored[2]);
     if (glm::length(direction) > 0) direction = glm::normalize(direction);
-    if (!turnDirection(key.says.sentence.c_str(), direction, angles_[ImGui::GetID("angles")])) return false;
+    if (row.says) tick({row.label, row.tip}, *row.says);
+    if (!turnDirection(row.tip, direction, angles_[ImGui::GetID("angles")])) return false;
     value = toJson(direction);
     return true;
 }
 
 // Null: the description tells nothing of how far a slider would go.
-const Slider* JsonRows::sliderOf(const Key& key, const std::vector<double>& numbers) {
+Slider* JsonRows::sliderOf(const Key& key, const std::vector<double>& numbers) {
     const bool slides = key.kind->numbers && (numbers.size() == 1 || key.kind->form == RowForm::span);
     const bool share = key.says.range.least >= -10 && key.says.range.most <= 10;
     if (!slides || (key.says.slider.least == key.says.slider.most && !share)) return nullptr;
-    return &sliders_.try_emplace(ImGui::GetID("slider"), shoal::sliderOf(key, numbers)).first->second;
+    Slider slider = shoal::sliderOf(key, numbers);
+    slider.least = std::max(slider.least, key.says.range.least);  // 0 is not said, but left out
+    return &sliders_.try_emplace(ImGui::GetID("slider"), slider).first->second;
 }
 
 namespace {
@@ -282,6 +291,14 @@ Limit numberLimit(const Key& key) {
     return {std::max(limit.least, -largestNumber), std::min(limit.most, largestNumber)};
 }
 
+// Makes a slider reach what was typed.
+void stretch(Slider& slider, const std::vector<double>& numbers) {
+    for (const double number : numbers) {
+        slider.least = std::min(slider.least, number);
+        slider.most = std::max(slider.most, number);
+    }
+}
+
 // By how much a pixel moves numbers that are shown times `scale`.
 double dragSpeed(const Key& key, const std::vector<double>& numbers, double scale) {
     double largest = 0;
@@ -298,59 +315,56 @@ double rounded(const Key& key, double number) {
 }  // namespace
 
 // Two numbers of which a file may say one.
-bool JsonRows::drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label) {
+bool JsonRows::drawSpan(const Description& keys, const Key& key, JsonValue& value, Row row) {
     const std::vector<double> stored = numbersOf(value);
-    const Slider* slider = sliderOf(key, stored);
-    if (stored.empty() || stored.size() > 2) return drawNumbers(key, value, label);
+    if (stored.empty() || stored.size() > 2) return drawNumbers(key, value, row);
+    Slider* slider = sliderOf(key, stored);
     glm::dvec2 span(stored.front(), stored.back());
     const std::vector<double> usual = numbersOf(keys.usualValue(key));
     if (key.kind == Kind::ends && stored.size() == 1 && !usual.empty()) span.x = usual.front();
     const glm::dvec2 before = span;
     const std::string format = formatOf(key, slider);
-    Row row{label.c_str(), key.says.sentence.c_str(), format.c_str()};
+    row.format = format.c_str();
     row.scale = isAngle(key) ? degrees : 1;
     row.free = key.kind == Kind::ends;
     row.steep = slider && slider->steep;
-    if (slider ? !slideSpan(row, {slider->least, slider->most}, span)
+    if (slider ? !slideSpan(row, {slider->least, slider->most}, numberLimit(key), span)
                : !drag(row, numberLimit(key), &span.x, 2, dragSpeed(key, stored, row.scale)))
         return false;
     for (int i = 0; i < 2; ++i)
         if (span[i] != before[i]) span[i] = rounded(key, span[i]);
+    if (slider) stretch(*slider, {span.x, span.y});
     const bool single = key.kind == Kind::span ? span.x == span.y : !usual.empty() && span.x == usual.front();
     value = single ? JsonValue::makeNumber(span.y) : toJson(span);
     return true;
 }
 
-bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& label) {
+bool JsonRows::drawNumbers(const Key& key, JsonValue& value, Row row) {
     std::vector<double> numbers = numbersOf(value);
     const std::vector<double> stored = numbers;
     if (numbers.empty() || numbers.size() > 4) {  // only in the file
-        beginRow({label.c_str(), key.says.sentence.c_str()});
+        beginRow(row);
         ImGui::TextDisabled("%s", writeJsonLine(value).substr(0, 40).c_str());
         return false;
     }
-    const Slider* slider = sliderOf(key, numbers);
+    Slider* slider = sliderOf(key, numbers);
     const std::string format = numbers.size() > 1 && !isAngle(key) ? "%.5g" : formatOf(key, slider);
-    Row row{label.c_str(), key.says.sentence.c_str(), format.c_str()};
+    row.format = format.c_str();
     row.scale = isAngle(key) ? degrees : 1;
-    bool changed = false;
-    if (slider && numbers.size() == 1) {
-        row.steep = slider->steep;
-        changed = slide(row, {slider->least, slider->most}, numbers[0]);
-        if (key.unlessZero && numbers[0] < key.says.range.least) numbers[0] = 0;
-    } else {
-        changed = drag(row, numberLimit(key), numbers.data(), int(numbers.size()),
-                       dragSpeed(key, numbers, row.scale));
-    }
-    if (!changed) return false;
+    row.steep = slider && slider->steep;
+    const bool slides = slider && numbers.size() == 1;
+    if (slides ? !slide(row, {slider->least, slider->most}, numberLimit(key), numbers[0])
+               : !drag(row, numberLimit(key), numbers.data(), int(numbers.size()),
+                       dragSpeed(key, numbers, row.scale)))
+        return false;
     for (size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i] != stored[i]) numbers[i] = rounded(key, numbers[i]);
+    if (slides) stretch(*slider, numbers);
     value = asJson(numbers, value.kind == Json::array);
     return true;
 }
 
-bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& label) {
-    const Row row{label.c_str(), key.says.sentence.c_str()};
+bool JsonRows::drawText(const Key& key, JsonValue& value, const Row& row) {
     if (key.name == "molecule" && scene_) {
         const std::optional<std::string> chosen = molecules_.choose(row, value.text, scene_->file);
         if (chosen) value = toJson(*chosen);
@@ -361,7 +375,7 @@ bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& lab
 }
 
 // The word that says what an object is, and the keys that go with it.
-bool JsonRows::drawKind(const Key& key, JsonValue& object) {
+bool JsonRows::drawKind(const Key& key, JsonValue& object, const void* runs) {
     const std::string current = object.find(key.name) ? object.find(key.name)->text : std::string();
     std::vector<std::string> words;
     for (const Description* alternative : key.objects)
@@ -377,13 +391,16 @@ bool JsonRows::drawKind(const Key& key, JsonValue& object) {
         return true;
     }
     const Description* kind = alternativeOf(key, object);
-    return kind && draw(*kind, object);
+    const void* variant = runs ? key.value(runs) : nullptr;
+    const bool same = variant && kind == key.objects[size_t(key.member.index(variant))];
+    return kind && draw(*kind, object, same ? key.member.held(variant) : nullptr);
 }
 
-bool JsonRows::drawList(const Key& key, JsonValue& list) {
+bool JsonRows::drawList(const Key& key, JsonValue& list, const void* runs) {
     const Description& element = *key.objects[0];
     const bool within = std::exchange(inList_, true);
     const bool colors = key.name == "colors";
+    const bool same = runs && key.member.count && key.member.count(runs) == list.items.size();
     const bool starts = std::find(opens.begin(), opens.end(), key.name) != opens.end();
     bool changed = false;
     std::optional<size_t> copied, removed;
@@ -398,7 +415,7 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
             if (!colors && ImGui::SmallButton("Duplicate")) copied = i;
             if (!colors) ImGui::SameLine();
             if (ImGui::SmallButton("Remove")) removed = i;
-            const bool edited = draw(element, list.items[i]);
+            const bool edited = draw(element, list.items[i], same ? key.member.element(runs, i) : nullptr);
             if (edited && colors) keepAge(list, i);
             changed |= edited;
             ImGui::TreePop();

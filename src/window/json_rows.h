@@ -26,11 +26,10 @@ class JsonRows {
     using Choices = std::function<std::vector<std::string>(const std::string& key)>;
     explicit JsonRows(Choices choices) : choices_(std::move(choices)) {}
 
-    // Whether the user changed the object in this frame.
-    bool draw(const Description& keys, JsonValue& object);
-    // The elements of a list, each with buttons, and a button to add one.
-    bool drawList(const Key& key, JsonValue& list);
-    std::vector<std::string> opens;  // keys whose nodes are open at first, and the only element of a list
+    // Whether the user changed the object in this frame. `runs`: the struct that was read from it, perhaps
+    // before it changed; null: there is none.
+    bool draw(const Description& keys, JsonValue& object, const void* runs);
+    std::vector<std::string> opens;  // lists that are open at first unless empty, and an only element
 
     // A place or a box that a key of an element of a list names, which was drawn.
     struct Place {
@@ -43,19 +42,22 @@ class JsonRows {
     void begin(const Scene& scene);  // a frame, in which rows of the scene are drawn
 
   private:
-    bool drawKey(const Description& keys, const Key& key, JsonValue& object);
+    bool drawKey(const Description& keys, const Key& key, JsonValue& object, const void* runs);
+    JsonValue ticked(const Key& key, const void* runs) const;
     void addPlaces(const Key& key, const JsonValue& value, JsonValue& object);
-    bool drawPresent(const Description& keys, const Key& key, JsonValue& value, const std::string& label);
-    bool drawNode(const Key& key, JsonValue& value, bool* says);
-    bool drawRotation(const Key& key, JsonValue& value, const std::string& label);
-    bool drawDirection(const Key& key, JsonValue& value);
+    bool drawPresent(const Description& keys, const Key& key, JsonValue& value, bool* says);
+    bool drawNode(const Key& key, JsonValue& value, const void* runs, bool* says);
+    // The elements of a list, each with buttons, and a button to add one.
+    bool drawList(const Key& key, JsonValue& list, const void* runs);
+    bool drawRotation(Row row, JsonValue& value);
+    bool drawDirection(const Row& row, JsonValue& value);
     bool drawTexts(const Row& row, JsonValue& value);
-    bool drawNumbers(const Key& key, JsonValue& value, const std::string& label);
-    bool drawSpan(const Description& keys, const Key& key, JsonValue& value, const std::string& label);
-    bool drawText(const Key& key, JsonValue& value, const std::string& label);
-    bool drawKind(const Key& key, JsonValue& object);
+    bool drawNumbers(const Key& key, JsonValue& value, Row row);
+    bool drawSpan(const Description& keys, const Key& key, JsonValue& value, Row row);
+    bool drawText(const Key& key, JsonValue& value, const Row& row);
+    bool drawKind(const Key& key, JsonValue& object, const void* runs);
     std::optional<JsonValue> addedTo(const Key& key, const JsonValue& list);
-    const Slider* sliderOf(const Key& key, const std::vector<double>& numbers);
+    Slider* sliderOf(const Key& key, const std::vector<double>& numbers);
     TextOf text() const;  // the first choice, or the key's name
 
     Choices choices_;

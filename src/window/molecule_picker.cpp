@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/data_paths.h"
 #include "molecule/molecule_file.h"
 #include "window/interface.h"
 #include "window/new_elements.h"
@@ -21,7 +22,7 @@ void MoleculePicker::list(const std::string& sceneFile) {
     for (const std::string& name : moleculesFor(sceneFile)) {
         Listed listed{name, {}, {}};
         try {
-            listed.shape = readMolecule(besideScene(name, sceneFile));
+            listed.shape = readMolecule(moleculeFile(name, sceneFile));
             const std::string& comment = listed.shape.comment;
             const size_t end = comment.find(". ");
             listed.words = end == std::string::npos ? comment : comment.substr(0, end + 1);

@@ -6,15 +6,18 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/data_paths.h"
 #include "core/json_build.h"
 #include "molecule/molecule_file.h"
-#include "run/data_paths.h"
 #include "window/orbit_camera.h"
-#include "window/scene_document.h"
 
 namespace shoal::window {
 
 namespace fs = std::filesystem;
+
+glm::dvec3 toMillimetre(const glm::dvec3& place) {
+    return glm::round(place * 1e3) / 1e3;
+}
 
 std::string freeName(const JsonValue& list, const std::string& wanted) {
     const auto taken = [&](const std::string& name) {
@@ -29,37 +32,19 @@ std::string freeName(const JsonValue& list, const std::string& wanted) {
     return out;
 }
 
-static std::vector<std::string> shippedMolecules() {
-    std::vector<std::string> files;
-    std::error_code code;
-    for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {
-        const std::string name = entry.path().filename().string();
-        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
-            files.push_back(entry.path().string());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 std::vector<std::string> moleculesFor(const std::string& sceneFile) {
     const fs::path folder = fs::absolute(sceneFile).parent_path();
-    std::vector<std::string> out;
+    std::vector<std::string> out = shippedMolecules();
     std::error_code code;
-    for (const std::string& file : shippedMolecules())
-        out.push_back(fs::relative(file, folder, code).generic_string());
+    if (fs::equivalent(folder, moleculeFolder(), code)) return out;
     for (const auto& entry : fs::directory_iterator(folder, code)) {
         if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
         std::array<char, 512> start{};
         std::ifstream(entry.path()).read(start.data(), start.size() - 1);
         if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
-        const std::string name = entry.path().filename().string();
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+        out.push_back(entry.path().filename().string());
     }
     return out;
-}
-
-std::string besideScene(const std::string& molecule, const std::string& sceneFile) {
-    return (fs::absolute(sceneFile).parent_path() / molecule).lexically_normal().string();
 }
 
 JsonValue groupOf(const JsonValue& groups, const std::string& molecule, const Scene& scene) {
@@ -67,7 +52,7 @@ JsonValue groupOf(const JsonValue& groups, const std::string& molecule, const Sc
                            key("molecule", molecule), key("count", 100));
     Molecule shape;
     try {
-        shape = readMolecule(besideScene(molecule, scene.file));
+        shape = readMolecule(moleculeFile(molecule, scene.file));
     } catch (const Error&) {
         return out;  // whoever reads the group will say why
     }
@@ -83,10 +68,9 @@ JsonValue groupOf(const JsonValue& groups, const std::string& molecule, const Sc
     const double ground = groundHeight(scene, target.x, target.z);
     const double bottom =
         std::max(target.y - side / 2, std::isfinite(ground) ? ground + scale * size : target.y - side / 2);
-    const auto rounded = [](const glm::dvec3& p) { return glm::round(p * 1e3) / 1e3; };
-    const glm::dvec3 low = rounded({target.x - side / 2, bottom, target.z - side / 2});
-    JsonValue place =
-        object(key("on", "volume"), key("box", object(key("low", low), key("high", rounded(low + side)))));
+    const glm::dvec3 low = toMillimetre({target.x - side / 2, bottom, target.z - side / 2});
+    JsonValue place = object(key("on", "volume"),
+                             key("box", object(key("low", low), key("high", toMillimetre(low + side)))));
     if (scale > 1) place.add("scale", toJson(std::stod(formatted("%.2g", scale))));
     if (!ball) place.add("turn", JsonValue::makeString("any"));
     setMember(out, "place", std::move(place));
@@ -109,6 +93,20 @@ JsonValue newEmitter(const JsonValue& emitters) {
     }
     return object(key("from", "point"), key("position", glm::dvec3(0, 1, 0)), key("rate", 20),
                   key("speed", glm::dvec2(1, 2)));
+}
+
+void standInView(JsonValue& collider, const Scene& scene) {
+    const std::vector<double> size =
+        collider.find("size") ? numbersOf(*collider.find("size")) : std::vector{0.0, 0.0};
+    const JsonValue* radius = collider.find("radius");
+    const double below = radius ? radius->number : size[1] / 2;
+    const glm::dvec3 target = scene.camera.target;
+    const double ground = groundHeight(scene, target.x, target.z);
+    const glm::dvec3 foot(target.x, (std::isfinite(ground) ? ground : target.y) + below, target.z);
+    if (collider.find("center")) setMember(collider, "center", toJson(toMillimetre(foot)));
+    if (!collider.find("from")) return;
+    setMember(collider, "from", toJson(toMillimetre(foot)));
+    setMember(collider, "to", toJson(toMillimetre(foot + glm::dvec3(0, 1, 0))));
 }
 
 }  // namespace shoal::window

@@ -194,7 +194,7 @@ Panel::Action Panel::drawForces(Controls& controls, const Simulation& simulation
         ImGui::SliderFloat(label, &value, least, most, "x %.2f", flags);
         ImGui::EndDisabled();
     };
-    slider(any(&Needs::fields), "Wind", controls.wind, 0, 4);
+    slider(any(&Needs::fields), "Fields", controls.wind, 0, 4);
     slider(any(&Needs::gravity), "Gravity", controls.gravityFactor, -1, 3);
     slider(any(&Needs::drag), "Drag", controls.drag, 0, 4);
     slider(any(&Needs::springs), "Stiffness", controls.stiffness, 0.02f, 20, ImGuiSliderFlags_Logarithmic);

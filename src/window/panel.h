@@ -123,7 +123,7 @@ class ScenePanel {
     Action drawSteps(const RunningScene& running, const View& view);
     bool drawGroups(RunningScene& running);
     void drawCounts(Simulation& simulation, size_t planGroup);
-    void renew(const RunningScene& running);
+    void renew(RunningScene& running);
     void goLive(RunningScene& running);
     bool moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may);
 
@@ -139,6 +139,7 @@ class ScenePanel {
     bool whole_ = false;  // all that the file says is shown, instead of the groups
     bool stale_ = false;  // the document has changed since the draft was taken
     Gizmo gizmo_;         // of what is open
+    float height_ = 0;    // of the rows
     std::string broken_;  // why what is held cannot run as it is
     struct Draft {
         JsonValue base, json;  // what the scene said, and is to say

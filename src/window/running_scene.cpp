@@ -5,6 +5,7 @@
 
 #include "core/file.h"
 #include "core/json_build.h"
+#include "core/json_edit.h"
 #include "gpu/program_cache.h"
 #include "molecule/molecule_file.h"
 #include "run/progress.h"
@@ -86,6 +87,7 @@ std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path 
         restarted = std::move(gone.restarted);
     }
     renderer_ = draws(next, *simulation);
+    shown_ = {};
     simulation_ = std::move(simulation);
     scene_ = std::move(next);
     ++builds_;
@@ -127,7 +129,7 @@ Scene RunningScene::read(const std::string& text) const {
 // from now on the text says it.
 void RunningScene::keepCapacities(const SceneDifference& difference, const std::vector<Group>& before,
                                   SceneDocument::Texts& next, bool trial) {
-    JsonValue root = parseJson(next.running, document_.file());
+    JsonValue root = next.running.json;
     bool kept = false;
     for (const SceneDifference::Live& edit : difference.live) {
         const Group& old = before[edit.group];
@@ -149,7 +151,7 @@ bool RunningScene::takeLive(const SceneDifference& difference, SceneDocument::Te
     if (difference.simulation || difference.picture) return false;
     const std::vector<Group> before = scene_.groups;
     try {
-        rereadLiveKeys(next.running, scene_);
+        rereadLiveKeys(next.running.json, scene_);
         SceneDocument::Texts kept = next;
         if (trial) keepCapacities(difference, before, kept, *trial);
         if (applyLive(difference.live, before, scene_.groups, *simulation_, *renderer_)) {
@@ -166,16 +168,16 @@ bool RunningScene::takeLive(const SceneDifference& difference, SceneDocument::Te
 
 // Runs what the texts say. `trial`: they are an edit, or an edit for this run alone.
 void RunningScene::follow(SceneDocument::Texts& next, std::optional<bool> trial) {
-    const SceneDifference difference =
-        differenceOf(document_.json(), parseJson(next.running, document_.file()));
+    const SceneDifference difference = differenceOf(document_.json(), next.running.json);
     if (takeLive(difference, next, trial)) return;
-    Scene fresh = read(next.running);
+    Scene fresh = read(next.running.text);
     if (difference.simulation || !difference.live.empty()) {
         build(std::move(fresh));
         return;
     }
     fresh.solver.substeps = scene_.solver.substeps;
     renderer_ = draws(fresh, *simulation_);
+    shown_ = {};
     scene_ = std::move(fresh);
     ++builds_;
 }
@@ -192,11 +194,26 @@ void RunningScene::change(const JsonValue& after, bool trial) {
 bool RunningScene::changeLive(const JsonValue& after) {
     SceneDocument::Texts next = document_.changed(after, false);
     if (next == document_.texts()) return true;
-    const SceneDifference difference =
-        differenceOf(document_.json(), parseJson(next.running, document_.file()));
+    const SceneDifference difference = differenceOf(document_.json(), next.running.json);
     if (!takeLive(difference, next, false)) return false;
     document_.take(std::move(next), std::exchange(held_, true));
     return true;
+}
+
+void RunningScene::showColliders(const JsonValue& after) {
+    const JsonValue& before = document_.json();
+    const JsonValue *list = after.find("colliders"), *own = before.find("colliders");
+    if (!list || !own) return;
+    const bool shows = shown_.kind != JsonValue::Kind::null;
+    if (sameJson(*list, shows ? shown_ : *own)) return;
+    try {
+        const std::optional<std::vector<Collider>> moved = rereadColliders(*list, *own, scene_);
+        if (!moved) return;
+        renderer_->changeColliders(*moved);
+        shown_ = *list;
+    } catch (const Error&) {
+        // which is told when the run is to take it
+    }
 }
 
 void RunningScene::go(SceneDocument::Texts next) {
@@ -217,7 +234,7 @@ void RunningScene::redo() {
 }
 
 void RunningScene::save() {
-    if (document_.tries()) read(document_.texts().kept);  // so that no file is left that nobody can open
+    if (document_.tries()) read(document_.texts().kept.text);  // so that no file is left that nobody can open
     document_.save();
 }
 
@@ -239,7 +256,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     const std::string onDisk = readFile(document_.file());
     Reloaded out;
     SceneDocument::Texts next = document_.merged(onDisk, prefer.value_or(Prefer::mine), out.conflicts);
-    Scene fresh = read(next.running);
+    Scene fresh = read(next.running.text);
     if (!out.conflicts.empty() && !prefer) return out;
     out.restarted = build(std::move(fresh));
     document_.reread(onDisk, std::move(next));

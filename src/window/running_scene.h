@@ -37,6 +37,8 @@ class RunningScene {
     // these up to release(), and a change() before it, are one step of undo.
     bool changeLive(const JsonValue& after);
     void release() { held_ = false; }
+    // Draws the colliders as `after` has them, where only their numbers differ, while the run goes on.
+    void showColliders(const JsonValue& after);
     // Adds the molecule of a file as a group, and any other file as a model.
     void add(const std::string& file);
     void keepTrials() { document_.take(document_.withTrials()); }
@@ -83,6 +85,7 @@ class RunningScene {
     SceneDocument document_;
     Scene scene_;
     bool held_ = false;  // a live edit goes on
+    JsonValue shown_;    // the list of colliders that is drawn, where it is not the document's
     int builds_ = 0;
     Path path_;
     int width_, height_;  // pixels, at the start

@@ -8,35 +8,11 @@
 
 namespace shoal::window {
 
-// Returns `text`, which says `before`, with what differs in `after`.
-static std::string withJson(const std::string& text, const JsonValue& before, const JsonValue& after) {
+SceneDocument::Text SceneDocument::withJson(const Text& text, const JsonValue& before,
+                                            const JsonValue& after) const {
     std::vector<TextChange> changes;
-    addChanges(text, before, before, after, changes);
-    return withChanges(text, std::move(changes));
-}
-
-std::vector<double> numbersOf(const JsonValue& value) {
-    std::vector<double> out;
-    if (value.kind == JsonValue::Kind::number) out.push_back(value.number);
-    for (const JsonValue& item : value.items)
-        if (item.kind == JsonValue::Kind::number) out.push_back(item.number);
-    return out.size() == std::max<size_t>(1, value.items.size()) ? out : std::vector<double>();
-}
-
-void setMember(JsonValue& object, const std::string& key, JsonValue value) {
-    if (const JsonValue* found = object.find(key))
-        const_cast<JsonValue&>(*found) = std::move(value);
-    else
-        object.add(key, std::move(value));
-}
-
-void leaveOut(JsonValue& object, const std::string& key) {
-    std::erase_if(object.members, [&](const JsonMember& member) { return member.first == key; });
-}
-
-JsonValue& memberOf(JsonValue& object, const std::string& key) {
-    if (!object.find(key)) object.add(key, JsonValue::makeObject());
-    return const_cast<JsonValue&>(*object.find(key));
+    addChanges(text.text, before, before, after, changes);
+    return changes.empty() ? text : read(withChanges(text.text, std::move(changes)));
 }
 
 // What a request asks for in place of values of the file, which was read with it as `scene`.
@@ -59,31 +35,31 @@ static JsonValue withRequest(JsonValue root, const Scene& scene, const RunReques
 }
 
 SceneDocument::SceneDocument(const Scene& scene, const RunRequest& request)
-    : file_(scene.file), saved_(readFile(file_)), texts_{saved_, saved_} {
+    : file_(scene.file), saved_(read(readFile(file_))), texts_{saved_, saved_} {
     texts_ = changed(withRequest(json(), scene, request), true);
 }
 
 SceneDocument::Texts SceneDocument::changed(const JsonValue& after, bool trial) const {
-    const JsonValue before = json();
-    Texts out{withJson(texts_.running, before, after), texts_.kept};
+    Texts out{withJson(texts_.running, json(), after), texts_.kept};
     if (trial) return out;
     if (!tries()) return {out.running, out.running};
     std::vector<std::string> settled;  // an edit of what was tried settles it
-    const JsonValue without = kept();
+    const JsonValue& without = texts_.kept.json;
     out.kept =
-        withJson(texts_.kept, without, shoal::merged(before, after, without, Prefer::mine, "$", settled));
+        withJson(texts_.kept, without, shoal::merged(json(), after, without, Prefer::mine, "$", settled));
     return out;
 }
 
 SceneDocument::Texts SceneDocument::merged(const std::string& onDisk, Prefer prefer,
                                            std::vector<std::string>& conflicts) const {
-    if (onDisk == saved_) return texts_;
-    const JsonValue base = parseJson(saved_, file_), theirs = parseJson(onDisk, file_);
-    const auto merge = [&](const JsonValue& mine, std::vector<std::string>& differing) {
-        return withJson(onDisk, theirs, shoal::merged(base, mine, theirs, prefer, "$", differing));
+    if (onDisk == saved_.text) return texts_;
+    const Text theirs = read(onDisk);
+    const auto merge = [&](const Text& mine, std::vector<std::string>& differing) {
+        return withJson(theirs, theirs.json,
+                        shoal::merged(saved_.json, mine.json, theirs.json, prefer, "$", differing));
     };
     std::vector<std::string> kept;  // are among the others, unless a trial hides them
-    return {merge(json(), conflicts), merge(this->kept(), kept)};
+    return {merge(texts_.running, conflicts), merge(texts_.kept, kept)};
 }
 
 void SceneDocument::take(Texts next, bool sameStep) {
@@ -103,17 +79,17 @@ void SceneDocument::goForth() {
 }
 
 void SceneDocument::save() {
-    if (readFile(file_) != saved_)
+    if (readFile(file_) != saved_.text)
         throw Error(Location{file_}, "has changed since it was read: nothing was saved");
-    if (unsaved()) writeFile(file_, texts_.kept);
+    if (unsaved()) writeFile(file_, texts_.kept.text);
     saved_ = texts_.kept;
 }
 
 void SceneDocument::reread(const std::string& onDisk, Texts next) {
-    if (onDisk != saved_) {
+    if (onDisk != saved_.text) {
         undo_.clear();
         redo_.clear();
-        saved_ = onDisk;
+        saved_ = read(onDisk);
         texts_ = saved();
     }
     if (next != texts_) take(std::move(next));

@@ -14,8 +14,13 @@ namespace shoal::window {
 
 class SceneDocument {
   public:
+    struct Text {
+        std::string text;
+        JsonValue json;  // what it says
+        bool operator==(const Text& other) const { return text == other.text; }
+    };
     struct Texts {
-        std::string running, kept;  // with the trials, and without
+        Text running, kept;  // with the trials, and without
         bool operator==(const Texts&) const = default;
     };
 
@@ -24,8 +29,7 @@ class SceneDocument {
 
     const std::string& file() const { return file_; }
     const Texts& texts() const { return texts_; }
-    JsonValue json() const { return parseJson(texts_.running, file_); }
-    JsonValue kept() const { return parseJson(texts_.kept, file_); }
+    const JsonValue& json() const { return texts_.running.json; }
     bool tries() const { return texts_.running != texts_.kept; }
     bool unsaved() const { return texts_.kept != saved_; }
 
@@ -51,16 +55,14 @@ class SceneDocument {
     void reread(const std::string& onDisk, Texts next);
 
   private:
-    std::string file_, saved_;  // as the file says
+    // `text`, which says `before`, with what differs in `after`.
+    Text withJson(const Text& text, const JsonValue& before, const JsonValue& after) const;
+    Text read(const std::string& text) const { return {text, parseJson(text, file_)}; }
+
+    std::string file_;
+    Text saved_;  // as the file says
     Texts texts_;
     std::vector<Texts> undo_, redo_;
 };
-
-std::vector<double> numbersOf(const JsonValue& value);  // of one or of a list; none: it is something else
-// In place of what an object says of the key, if anything.
-void setMember(JsonValue& object, const std::string& key, JsonValue value);
-void leaveOut(JsonValue& object, const std::string& key);
-// The object that another says of the key; an empty one is added where it says none.
-JsonValue& memberOf(JsonValue& object, const std::string& key);
 
 }  // namespace shoal::window

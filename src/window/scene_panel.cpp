@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "core/json_build.h"
+#include "window/apply_live.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
+#include "window/new_elements.h"
 
 namespace shoal::window {
 
@@ -24,18 +26,6 @@ std::string grouped(uint64_t number) {
     for (int position = int(out.size()) - 3; position > 0; position -= 3)
         out.insert(size_t(position), ",");
     return out;
-}
-
-// The group's index in the plan that runs, which leaves out groups without molecules.
-std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
-    for (size_t g = 0; g < plan.groups.size(); ++g)
-        if (plan.groups[g].index == group) return g;
-    return {};
-}
-
-// To a millimetre.
-glm::dvec3 rounded(const glm::dvec3& place) {
-    return glm::round(place * 1e3) / 1e3;
 }
 
 }  // namespace
@@ -60,7 +50,14 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
         if (action == Action::none) action = asked;
     }
     rows_.begin(running.scene());
-    const bool edited = whole_ ? rows_.draw(describe(&running.scene()), draft_->json) : drawGroups(running);
+    // of its own, so that what is above stays when it scrolls; as high as it was in the frame before
+    const float room = screen.y - edge - ImGui::GetWindowPos().y - ImGui::GetCursorPosY() - points(12);
+    ImGui::BeginChild("rows", ImVec2(0, std::clamp(height_, 1.0f, std::max(room, 1.0f))), false,
+                      ImGuiWindowFlags_NavFlattened);
+    const bool edited =
+        whole_ ? rows_.draw(describe(&running.scene()), draft_->json, &running.scene()) : drawGroups(running);
+    height_ = ImGui::GetCursorPosY();
+    ImGui::EndChild();
     ImGui::End();
     const bool moved = moveHandles(rows_.places(), view, !edited);
     if (edited || moved) {
@@ -80,10 +77,10 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
 }
 
 // Takes a draft of what the document says now. What is refused stays in it.
-void ScenePanel::renew(const RunningScene& running) {
+void ScenePanel::renew(RunningScene& running) {
     if (draft_ && !std::exchange(stale_, false)) return;
     stale_ = false;
-    const JsonValue current = running.document().json();
+    const JsonValue& current = running.document().json();
     if (draft_ && refused()) {
         std::vector<std::string> conflicts;
         draft_->json = merged(draft_->base, draft_->json, current, Prefer::mine, "$", conflicts);
@@ -98,13 +95,17 @@ void ScenePanel::renew(const RunningScene& running) {
     for (const Group& group : running.scene().groups)
         words_["group"].push_back(group.name);
     words_["of"] = words_["group"];
+    running.showColliders(draft_->json);
 }
 
 // Lets the run take the draft at once, if it can.
 void ScenePanel::goLive(RunningScene& running) {
     broken_.clear();
     try {
-        if (running.changeLive(draft_->json)) draft_.reset();
+        if (running.changeLive(draft_->json))
+            draft_.reset();
+        else
+            running.showColliders(draft_->json);
     } catch (const Error& error) {
         broken_ = error.message();
     }
@@ -146,8 +147,8 @@ ScenePanel::Action ScenePanel::drawSteps(const RunningScene& running, const View
     ImGui::SameLine();
     if (ImGui::Button("Keep this view")) {
         JsonValue& camera = memberOf(draft_->json, "camera");
-        setMember(camera, "eye", toJson(rounded(view.eye)));
-        setMember(camera, "target", toJson(rounded(view.target)));
+        setMember(camera, "eye", toJson(toMillimetre(view.eye)));
+        setMember(camera, "target", toJson(toMillimetre(view.target)));
         draft_->changed = true;
     }
     tip("Makes what you see now the camera of the scene.");
@@ -174,13 +175,14 @@ bool ScenePanel::drawGroups(RunningScene& running) {
     JsonValue& groups = memberOf(draft_->json, "groups");
     const Description& keys = describe(static_cast<const Group*>(nullptr));
     const int open = groups.items.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+    const std::vector<Group>& ran = running.scene().groups;
     bool changed = false;
     for (size_t g = 0; g < groups.items.size(); ++g) {
         if (!ImGui::CollapsingHeader(concat(titleOf(groups.items[g], g), "###", g).c_str(), open)) continue;
         ImGui::PushID(int(g));
         const std::optional<size_t> planned = planGroupOf(running.simulation().plan(), g);
-        if (planned && running.scene().groups[g].life) drawCounts(running.simulation(), *planned);
-        changed |= rows_.draw(keys, groups.items[g]);
+        if (planned && ran[g].life) drawCounts(running.simulation(), *planned);
+        changed |= rows_.draw(keys, groups.items[g], g < ran.size() ? &ran[g] : nullptr);
         ImGui::PopID();
     }
     return changed;

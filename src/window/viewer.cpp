@@ -412,7 +412,6 @@ class Viewer : public WindowLoop {
 
     // Closes whatever lies on top, the window last.
     void escape() {
-        if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;  // which closes itself
         if (helps_)
             helps_ = false;
         else if (chooser_.open && open_)

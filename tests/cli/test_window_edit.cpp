@@ -66,8 +66,8 @@ Outcome editWhole(const std::string& file, const std::string& steps) {
 
 // In the right panel, with one group and one emitter, which is folded to add another.
 constexpr const char* places =
-    "rate() { drag 700 423 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
-    "addEmitter() { press 580 294; press 567 312; }\nabandon() { press 390 329; }\n";
+    "rate() { drag 700 519 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
+    "addEmitter() { press 580 390; press 567 408; }\nabandon() { press 390 329; }\n";
 
 }  // namespace
 
@@ -102,8 +102,8 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     const std::string file = scratch.path("new.scene.json");
     const std::string steps =
         "cp $file $file.begun\n"
-        "press 600 360; press 567 397; press 614 432\n"  // colliders, Add, sphere, which opens
-        "at 450 450; xdotool mousedown 1; settle; at 400 400; xdotool mouseup 1; settle\n"
+        "press 600 192; press 567 228; press 614 263\n"  // colliders, Add, sphere, which opens
+        "at 450 303; xdotool mousedown 1; settle; at 400 253; xdotool mouseup 1; settle\n"
         "control s; cp $file $file.kept\n"
         "control z; control z; control s\n"
         "key Escape\n";
@@ -118,7 +118,7 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     const JsonValue& center = member(member(root, "colliders").items[1], "center");
     // 50 pixels to the left and up of 640 that show 2 tan(0.4) of 5.2 m
     CHECK(center.items[0].number == Approx(-0.34).margin(0.05));
-    CHECK(center.items[1].number == Approx(0.34).margin(0.05));
+    CHECK(center.items[1].number == Approx(1.34).margin(0.05));  // it stood on the ground
     CHECK(readFile(file) == begun);
     CHECK(runShoal({"run", file + ".kept", "--headless", "--frames", "2"}).code == 0);
 }
@@ -128,7 +128,7 @@ TEST_CASE("what was added in the window and what changed on disk come together",
     const Scratch scratch;
     const std::string file = scratch.path("both.scene.json");
     const std::string steps =
-        "press 600 360; press 567 397; press 614 432\n"
+        "press 600 192; press 567 228; press 614 263\n"
         "sed -i 's/-9.81/-1.62/' $file; says '^reloaded:'\n"
         "control s; key Escape\n";
     const Outcome outcome = editWhole(file, steps);
@@ -144,7 +144,7 @@ TEST_CASE("what cannot run stays in the panel until it is dropped", "[.window]")
     // the only group is removed; dropping that brings it back, and nothing is to be saved
     const std::string steps =
         "cp $file $file.begun\n"
-        "press 600 378; press 600 396; press 662 414\n"
+        "press 600 138; press 600 156; press 662 174\n"
         "says 'at least'; control s\n"
         "press 770 75; key Escape\n";
     const Outcome outcome = editWhole(file, steps);
@@ -164,13 +164,48 @@ TEST_CASE("what is typed in a row is saved by a click on Save, and what is only 
         "sed -i 's/{\"type\": \"plane\"}/{\"type\": \"box\", \"center\": [0, 0, 0], \"size\": [1, 1, 1], "
         "\"rotation\": [0, 0.6, 0, 0.8]}/' $file\n"
         "says '^reloaded:'; cp $file $file.before\n"
-        "press 600 360; press 600 378\n"
+        "press 600 192; press 600 210\n"
         "press 760 99; xdotool type --delay 60 leaves; settle; press 549 51; key Escape\n";
     const Outcome outcome = editWhole(file, steps);
     std::string expected = readFile(file + ".before");
     const size_t name = expected.find("\"typed\"");
     REQUIRE(name != std::string::npos);
     CHECK(readFile(file) == expected.replace(name, 7, "\"typedleaves\""));
+}
+
+TEST_CASE("rows are reached, opened, added, ticked and typed by the keyboard alone", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("keys.scene.json");
+    // to the fields, which open; the first kind is added; from below its box is ticked, its weight typed
+    const std::string steps =
+        "cp $file $file.begun\n"
+        "for i in 1 2 3 4 5; do key Down; done; key Right; key Down; key space; key space\n"
+        "key Up; key space; key Up; key Return; xdotool type --delay 60 0.5; settle; key Return\n"
+        "control s; close\n";
+    const Outcome outcome = editWhole(file, steps);
+    CHECK(outcome.err.empty());
+    std::string expected = readFile(file + ".begun");
+    const size_t end = expected.rfind("\n}");
+    REQUIRE(end != std::string::npos);
+    expected.insert(end,
+                    ",\n  \"fields\": [\n    {\"type\": \"uniform\", \"velocity\": [0, 0, 0], \"box\": "
+                    "{\"low\": [-1, -1, -1], \"high\": [1, 1, 1]}, \"weight\": 0.5}\n  ]");
+    CHECK(readFile(file) == expected);
+}
+
+TEST_CASE("a number typed beyond its limit is taken to it, one beyond its slider as it is", "[.window]") {
+    if (!hasXdotool()) return;
+    const Edited edited =
+        edit("typed",
+             "field() { xdotool keydown ctrl; press 760 519; xdotool keyup ctrl; settle; }\n"
+             "field; xdotool type --delay 60 9000; settle; key Return; control s; keep\n"
+             "field; xdotool type --delay 60 -- -5; settle; key Return; control s; close\n");
+    const auto rate = [](const std::string& text) {
+        return member(emittersIn(parseJson(text, "text")).items[0], "rate").number;
+    };
+    CHECK(rate(edited.between) == 9000);
+    CHECK(rate(edited.after) == 0);
 }
 
 TEST_CASE("the time line goes back to a state that was kept", "[.window]") {

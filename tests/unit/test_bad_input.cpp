@@ -66,6 +66,11 @@ TEST_CASE("bad input: files that a scene names", "[badInput]") {
                Contains("nowhere/x.scene.json: no such file"));
     const std::string missing = wrong.scene("\"blade.json\"", "^\"../laef.json\"");
     CHECK_THAT(missing, Contains("no such file: ") && Contains("laef.json (at $.groups[0].molecule)"));
+    CHECK_THAT(wrong.scene("\"blade.json\"", "^\"laef\""),
+               Contains("no molecule that ships is called \"laef\" "
+                        "(did you mean \"leaf\"?)"));
+    CHECK_THAT(wrong.scene("\"blade.json\"", "^\"blade\""),
+               Contains("(expected one of ") && Contains("leaf, ") && Contains("fish, "));
     CHECK_THAT(wrong.scene("\"hill.obj\"", "^\"hall.obj\""),
                Contains("no such file: ") && Contains("hall.obj"));
     CHECK_THAT(wrong.scene("wind.fga", "wand.fga"),

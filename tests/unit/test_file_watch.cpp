@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/data_paths.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
@@ -93,6 +94,12 @@ TEST_CASE("a scene's files are those that it and its molecules name", "[watch]")
     scratch.write("wind-1.vti", "x");
     const std::string storm = scratch.write("storm.scene.json", R"({"file": "wind-##.vti"})");
     CHECK(filesOf(storm) == Files{storm, first, second});
+    // molecules that ship
+    const std::string shipped =
+        scratch.write("shipped.scene.json", R"({"groups": [{"molecule": "leaf"}, {"molecule": "laef"}]})");
+    const std::vector<std::string> named = filesOf(shipped);
+    REQUIRE(named.size() > 1);
+    CHECK(std::count(named.begin(), named.end(), moleculeFile("leaf", "")) == 1);
     // broken, it is still worth watching
     CHECK(filesOf(scratch.write("broken.scene.json", "{")) == Files{scratch.path("broken.scene.json")});
 }

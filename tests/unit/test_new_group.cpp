@@ -1,5 +1,7 @@
 // What a new group of a molecule begins with.
 #include "core/json_build.h"
+#include "core/smallest.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 #include "scene/known_colliders.h"
 #include "support/catch.h"
@@ -33,4 +35,25 @@ TEST_CASE("a new group of each molecule that ships is read, and lies above the g
     CHECK(dragOf("leaf") == 9);
     CHECK(dragOf("fry") == 40);
     CHECK(dragOf("snow") == 3);
+}
+
+TEST_CASE("a new collider stands on the ground below what the camera looks at", "[new-group]") {
+    Scene scene;
+    scene.camera.target = {3, 1, -2};
+    scene.colliders = {Collider{"floor", "", PlaneCollider{{0, 2, 0}}}};
+    const TextOf none = [](const Key&) { return std::string(); };
+    const auto made = [&](const Description& kind) {
+        JsonValue out = smallestObject(describe(&scene.colliders[0]), kind, none);
+        standInView(out, scene);
+        return out;
+    };
+    const JsonValue ball = made(describe(static_cast<const SphereCollider*>(nullptr)));
+    const double radius = ball.find("radius")->number;
+    CHECK(numbersOf(*ball.find("center")) == std::vector<double>{3, 2 + radius, -2});
+    const JsonValue box = made(describe(static_cast<const BoxCollider*>(nullptr)));
+    CHECK(numbersOf(*box.find("center")) ==
+          std::vector<double>{3, 2 + numbersOf(*box.find("size"))[1] / 2, -2});
+    const JsonValue capsule = made(describe(static_cast<const CapsuleCollider*>(nullptr)));
+    CHECK(numbersOf(*capsule.find("from"))[1] == 2 + capsule.find("radius")->number);
+    CHECK(numbersOf(*capsule.find("to"))[1] > numbersOf(*capsule.find("from"))[1]);
 }

@@ -6,11 +6,11 @@
 
 #include "app/bench/bench.h"
 #include "app/line/commands.h"
+#include "core/data_paths.h"
 #include "core/printable.h"
 #include "gpu/program_cache.h"
 #include "measure/timing.h"
 #include "render/renderer.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 
 namespace shoal::app {

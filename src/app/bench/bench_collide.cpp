@@ -3,8 +3,8 @@
 
 #include "app/bench/bench.h"
 #include "app/line/commands.h"
+#include "core/data_paths.h"
 #include "molecule/molecule_file.h"
-#include "run/data_paths.h"
 
 namespace shoal::app {
 

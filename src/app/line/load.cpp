@@ -3,8 +3,8 @@
 
 #include "app/line/commands.h"
 #include "core/cache_folder.h"
+#include "core/data_paths.h"
 #include "core/file.h"
-#include "run/data_paths.h"
 
 namespace shoal::app {
 
@@ -25,7 +25,7 @@ void keepToSandbox(const Options& options, const std::string& file) {
 }
 
 gpu::ContextOptions hiddenContext(const Options& options) {
-    gpu::ContextOptions out = contextOptions();
+    gpu::ContextOptions out = gpu::contextOptions();
     out.kind = options.gpu ? gpu::ContextKind::egl : options.context;
     out.device = options.gpu;
     out.visible = false;

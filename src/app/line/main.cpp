@@ -4,9 +4,9 @@
 #include <new>
 
 #include "app/line/commands.h"
+#include "core/data_paths.h"
 #include "core/memory.h"
 #include "core/printable.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 #include "run/scene_list.h"
 #include "run/signals.h"

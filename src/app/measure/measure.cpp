@@ -5,10 +5,10 @@
 
 #include "app/measure/measure.h"
 #include "core/cache_folder.h"
+#include "core/data_paths.h"
 #include "core/file.h"
 #include "core/printable.h"
 #include "gpu/program_cache.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 #include "scene/json/scene_file.h"
 

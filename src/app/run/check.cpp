@@ -5,6 +5,7 @@
 
 #include "app/line/commands.h"
 #include "compile/generate.h"
+#include "core/data_paths.h"
 #include "core/error.h"
 #include "core/json_build.h"
 #include "core/printable.h"
@@ -12,7 +13,6 @@
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "reference/colliders.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 #include "scene/json/scene_file.h"
 #include "scene/known_colliders.h"

@@ -4,8 +4,8 @@
 #include "app/measure/measure.h"
 #include "app/run/explain_cost.h"
 #include "app/run/explain_passes.h"
+#include "core/data_paths.h"
 #include "core/json.h"
-#include "run/data_paths.h"
 #include "simulate/fused_kernel.h"
 
 namespace shoal::app {

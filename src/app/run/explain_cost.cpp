@@ -4,8 +4,8 @@
 
 #include "app/run/explain_cost.h"
 #include "core/cache_folder.h"
+#include "core/data_paths.h"
 #include "core/table.h"
-#include "run/data_paths.h"
 #include "simulate/fused.h"
 
 namespace shoal::app {

@@ -12,6 +12,7 @@
 #include "app/measure/measure.h"
 #include "app/run/picture_layers.h"
 #include "app/run/report.h"
+#include "core/data_paths.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json.h"
@@ -20,7 +21,6 @@
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "run/checkpoints.h"
-#include "run/data_paths.h"
 #include "run/progress.h"
 #include "run/scene_list.h"
 #include "run/signals.h"
@@ -382,8 +382,6 @@ int runCommand(const Options& options) {
 // A scene to begin with: leaves that drop onto the ground.
 static std::string firstScene(const fs::path& file) {
     const auto text = [](const std::string& words) { return writeJsonLine(JsonValue::makeString(words)); };
-    const fs::path folder = fs::absolute(file).parent_path();
-    const fs::path leaf = fs::relative(fs::path(moleculeFolder()) / "leaf.json", folder);
     return concat(R"({
   "format": "shoal-scene-1",
   "name": )",
@@ -395,8 +393,7 @@ static std::string firstScene(const fs::path& file) {
   "groups": [
     {
       "name": "leaves",
-      "molecule": )",
-                  text(leaf.generic_string()), R"(,
+      "molecule": "leaf",
       "count": 100,
       "place": {"on": "volume", "box": {"low": [-1.5, 0.5, -1], "high": [1.5, 2.5, 1]}, "turn": "any"},
       "held": false,

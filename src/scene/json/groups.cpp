@@ -1,7 +1,9 @@
 // "groups": which molecules or particles, how many, where they sit, and what happens to them.
 #include <algorithm>
 
+#include "core/data_paths.h"
 #include "core/describe.h"
+#include "core/json_build.h"
 #include "molecule/gap.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
@@ -159,25 +161,47 @@ void checkGroup(const Group& group, const Where& where) {
 
 }  // namespace
 
+static std::string needMolecule(JsonReader& r) {
+    std::string written;
+    r.need("molecule", written);
+    if (!isShippedName(written)) return needFile(r, "molecule");
+    needNamed(written, shippedMolecules(), r.locate("molecule"), "no molecule that ships is called");
+    return moleculeFile(written, r.file());
+}
+
 const Description& describe(const Group*) {
     using G = Group;
     static const auto readMoleculeOf = [](JsonReader& r, G& group, void*) {
-        if (r.has("molecule") && !r.has("particle")) group.molecule = readMolecule(needFile(r, "molecule"));
+        if (r.has("molecule") && !r.has("particle")) group.molecule = readMolecule(needMolecule(r));
     };
     static const Description description =
         Describe<G>("group", "Molecules or particles of one kind.")
             .location(&G::location)
-            .byHand("molecule", {.notEmpty = true}, {"the name of a file", "The molecule."}, readMoleculeOf)
+            .byHand("molecule", {.notEmpty = true},
+                    {"one that ships, by its name, or the name of a file", "The molecule."}, readMoleculeOf)
             .usually("required, or `particle`")
             .key("particle", &G::particle, {"", "A type of point particle instead of a molecule."})
-            .key("name", &G::name, {"", "Its name in messages and in the panel; no two have the same."})
-            .usually("the molecule's name")
-            .key("place", &G::place, {"", "Where those at the start are."})
-            .usually("required without `emitters`")
             .key("count", &G::count,
                  {"", "How many there are at the start.", Range::between(1, maxGroupCount)})
             .unlessZero()
             .usually("all places of a grid or list, else required")
+            .key("place", &G::place, {"", "Where those at the start are."})
+            .usually("required without `emitters`")
+            .key("name", &G::name, {"", "Its name in messages and in the panel; no two have the same."})
+            .usually("the molecule's name")
+            .color("color", &G::color,
+                   {"", "The colour instead of the molecule's; alone it colours all instances alike."})
+            .acts([](const G& group) { return toJson(instanceColors(group).first); })
+            .color("secondColor", &G::secondColor,
+                   {"", "Instances vary between the colour and this one, instead of the molecule's."})
+            .acts([](const G& group) { return toJson(instanceColors(group).second); })
+            .key("variation", &G::variation,
+                 {"",
+                  "By what share the brightness of instances varies; 0: those of one colour are all alike.",
+                  Range::between(0, 1)})
+            .usually("0.2 with a second colour, else 0")
+            .acts([](const G& group) { return toJson(instanceColors(group).variation); })
+            .key("colorBy", &G::colorBy, {"", "Colours by speed, in place of those."})
             .key("life", &G::life, {"", "Birth and death."})
             .list<emittersOf, lookAtEmitters>("emitters",
                                               "What molecules or particles of the group are born from.")
@@ -187,6 +211,8 @@ const Description& describe(const Group*) {
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)
             .holdsKeys(describe(static_cast<const Drag*>(nullptr)))
+            .key("velocity", &G::velocity, {"m/s", "The velocity at the start."})
+            .key("spin", &G::spin, {"rad/s", "The turning at the start, about the molecule's placed origin."})
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
             .only("held", {"true"})
@@ -194,8 +220,6 @@ const Description& describe(const Group*) {
                  {"", "What multiplies the stiffness of every spring.", Range::atLeast(0)})
             .key("damping", &G::damping,
                  {"", "What multiplies the damping of every spring.", Range::atLeast(0)})
-            .key("velocity", &G::velocity, {"m/s", "The velocity at the start."})
-            .key("spin", &G::spin, {"rad/s", "The turning at the start, about the molecule's placed origin."})
             .key("phaseSpread", &G::phaseSpread,
                  {"rad", "Each instance's muscles run ahead by a random phase of up to this.",
                   Range::atLeast(0)})
@@ -210,16 +234,6 @@ const Description& describe(const Group*) {
             .key("friction", &G::friction,
                  {"", "The friction against other groups: the geometric mean of the two holds.",
                   Range::atLeast(0)})
-            .color("color", &G::color,
-                   {"", "The colour instead of the molecule's; alone it colours all instances alike."})
-            .color("secondColor", &G::secondColor,
-                   {"", "Instances vary between the colour and this one, instead of the molecule's."})
-            .key("variation", &G::variation,
-                 {"",
-                  "By what share the brightness of instances varies; 0: those of one colour are all alike.",
-                  Range::between(0, 1)})
-            .usually("0.2 with a second colour, else 0")
-            .key("colorBy", &G::colorBy, {"", "Colours by speed, in place of those."})
             .derive(derive)
             .rule(checkGroup, R"({"anyOf": [{"required": ["place"]}, {"required": ["emitters"]}],
                 "oneOf": [{"required": ["molecule"]},

@@ -4,9 +4,11 @@
 #include <fstream>
 #include <set>
 
+#include "core/data_paths.h"
 #include "core/describe.h"
 #include "core/file.h"
 #include "core/json.h"
+#include "core/json_edit.h"
 #include "core/where.h"
 #include "molecule/gap.h"
 #include "scene/field_files/field_file.h"
@@ -51,25 +53,25 @@ const Description& describe(const Scene*) {
         Describe<Scene>("scene", "A scene: everything that a run needs. What is left out is not simulated.")
             .format("shoal-scene-1")
             .key("name", &Scene::name, {"", "Its name."})
-            .key("seed", &Scene::seed, {"", "The seed of places, colours, phases and release."})
-            .key("frameRate", &Scene::frameRate,
-                 {"Hz", "A frame simulates 1 / frameRate seconds.", Range::between(1, 1e5)})
+            .key("models", &Scene::models,
+                 {"", "Meshes that stand still: they are drawn, carry molecules, and make colliders."})
+            .key("groups", &Scene::groups, {"", "The molecules, at least one group."})
+            .needed()
+            .key("fields", &Scene::fields, {"", "The velocity of the fluid."})
+            .key("forces", &Scene::forces,
+                 {"", "What accelerates molecules beside gravity, fields and springs."})
+            .key("colliders", &Scene::colliders, {"", "What molecules collide with."})
             .key("gravity", &Scene::gravity, {"m/s²", "The gravity; there is none unless given."})
-            .key("solver", &Scene::solver, {"", "How molecules are advanced."})
-            .key("contact", &Scene::contact, {"", "Contact of molecules with one another."})
+            .key("water", &Scene::water, {"", "Water; all is in the air without it."})
             .key("camera", &Scene::camera, {"", "From where it is seen."})
             .key("light", &Scene::light, {"", "The sun."})
             .key("sky", &Scene::sky, {"", "The sky."})
-            .key("water", &Scene::water, {"", "Water; all is in the air without it."})
-            .key("fields", &Scene::fields, {"", "The velocity of the fluid."})
-            .key("models", &Scene::models,
-                 {"", "Meshes that stand still: they are drawn, carry molecules, and make colliders."})
-            .key("colliders", &Scene::colliders, {"", "What molecules collide with."})
-            .key("groups", &Scene::groups, {"", "The molecules, at least one group."})
-            .needed()
-            .key("forces", &Scene::forces,
-                 {"", "What accelerates molecules beside gravity, fields and springs."})
+            .key("contact", &Scene::contact, {"", "Contact of molecules with one another."})
             .key("surfacePairs", &Scene::surfacePairs, {"", "Restitution and friction of pairs of surfaces."})
+            .key("solver", &Scene::solver, {"", "How molecules are advanced."})
+            .key("frameRate", &Scene::frameRate,
+                 {"Hz", "A frame simulates 1 / frameRate seconds.", Range::between(1, 1e5)})
+            .key("seed", &Scene::seed, {"", "The seed of places, colours, phases and release."})
             .rule(checkParts, R"({"properties": {"groups": {"minItems": 1}}})");
     return description;
 }
@@ -109,8 +111,7 @@ static void rereadLiveKeys(JsonReader& reader, SceneReading& reading, Group& gro
     if (group.particle) group.molecule = moleculeOf(*group.particle);
 }
 
-void rereadLiveKeys(const std::string& text, Scene& scene) {
-    const JsonValue root = parseJson(text, scene.file);
+void rereadLiveKeys(const JsonValue& root, Scene& scene) {
     refuseHugeNumbers(root, scene.file);
     std::vector<Warning> warnings;
     SceneReading reading{scene.models, warnings};
@@ -122,6 +123,23 @@ void rereadLiveKeys(const std::string& text, Scene& scene) {
     }
     const JsonReader whole(root, scene.file);
     describe(&scene).check(scene, Where(whole), largestNumber);
+}
+
+std::optional<std::vector<Collider>> rereadColliders(const JsonValue& list, const JsonValue& before,
+                                                     const Scene& scene) {
+    EXPECTS(before.items.size() == scene.colliders.size());
+    if (list.items.size() != before.items.size()) return {};
+    std::vector<Collider> out = scene.colliders;
+    std::vector<Warning> warnings;
+    SceneReading reading{scene.models, warnings};
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (sameJson(list.items[i], before.items[i])) continue;
+        if (list.items[i].find("model") || list.items[i].find("image")) return {};
+        JsonReader reader(list.items[i], scene.file, concat("$.colliders[", i, "]"));
+        out[i] = {};
+        describe(&out[i]).read(reader, out[i], &reading);
+    }
+    return out;
 }
 
 void checkScene(const Scene& scene) {
@@ -172,8 +190,11 @@ class Collector {
         if (value.kind == JsonValue::Kind::string) addIfFile(file, value.text);
         for (const JsonValue& item : value.items)
             addTexts(file, item);
-        for (const auto& [key, member] : value.members)
+        for (const auto& [key, member] : value.members) {
             addTexts(file, member);
+            if (key == "molecule" && isShippedName(member.text))
+                addIfFile(moleculeFolder() + "/", member.text + ".json");
+        }
     }
 
     // They stand before the faces that use them, as a rule at the beginning.

@@ -5,10 +5,12 @@
 
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/cache_folder.h"
+#include "core/json.h"
 #include "geometry/distance_field.h"
 #include "scene/scene.h"
 
@@ -31,9 +33,14 @@ Scene parseScene(const std::string& text, const std::string& file, const SceneOp
 // The keys of a group that a run may take while it goes on.
 inline constexpr std::initializer_list<const char*> liveKeys = {
     "particle", "color", "secondColor", "variation", "school", "life", "emitters"};
-// Reads these keys of all groups anew from the text of a scene file, which differs in them alone from what
+// Reads these keys of all groups anew from what a scene file says, which differs in them alone from what
 // the scene was read from. No model, molecule or field is read. Error: the reader's.
-void rereadLiveKeys(const std::string& text, Scene& scene);
+void rereadLiveKeys(const JsonValue& root, Scene& scene);
+
+// The colliders that an array of a scene's file says, of which those that differ from `before` are read anew;
+// nothing where one is made of a model or an image. Error: the reader's.
+std::optional<std::vector<Collider>> rereadColliders(const JsonValue& list, const JsonValue& before,
+                                                     const Scene& scene);
 
 // The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
 // of what is wrong and no file. What only files say (which keys go together) is not asked.

@@ -9,11 +9,11 @@
 #include <iostream>
 
 #include "author/shapes.h"
+#include "core/data_paths.h"
 #include "core/file.h"
 #include "core/file_watch.h"
 #include "core/printable.h"
 #include "molecule/molecule_file.h"
-#include "run/data_paths.h"
 #include "window/editor/editor.h"
 #include "window/window_loop.h"
 
@@ -432,7 +432,7 @@ static Document documentOf(const std::string& file, const std::string& shapeName
 void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
                int height) {
     Document document = documentOf(file, shape);  // mistakes are told before there is a window
-    gpu::ContextOptions wanted = contextOptions();
+    gpu::ContextOptions wanted = gpu::contextOptions();
     wanted.kind = gpu::ContextKind::window;
     wanted.preferWindow = true;
     wanted.width = width;

@@ -19,18 +19,19 @@ EditorAction drawHead(Editor& editor) {
     tip(document.file());
     const auto button = [&](const char* label, bool can, EditorAction what, const std::string& words) {
         ImGui::BeginDisabled(!can);
-        if (ImGui::Button(label)) action = what;
+        const bool pressed = ImGui::Button(label);
+        if (pressed) action = what;
         ImGui::EndDisabled();
         tip(words);
         ImGui::SameLine();
+        return pressed;
     };
     button("Save", document.unsaved() && document.problem().empty(), EditorAction::save,
            "Into the molecule's file (Ctrl+S).");
     const std::string back = document.undoLabel(), again = document.redoLabel();
     button("Undo", !back.empty(), EditorAction::undo, "Takes the last change back (Ctrl+Z). " + back);
     button("Redo", !again.empty(), EditorAction::redo, "Does it again (Ctrl+Y). " + again);
-    button("Help", true, EditorAction::none, "All keys (F1).");
-    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Left)) editor.help = !editor.help;
+    if (button("Help", true, EditorAction::none, "All keys (F1).")) editor.help = !editor.help;
     ImGui::NewLine();
     if (!document.problem().empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, red);

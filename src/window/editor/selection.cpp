@@ -203,7 +203,7 @@ void drawLook(Editor& editor, const char* name, Value Material::*member) {
     Value value = editor.document.molecule().material.*member;
     bool changed = false;
     if constexpr (std::is_same_v<Value, double>)
-        changed = slide(rowOf(key), limitOf(key), value);
+        changed = slide(rowOf(key), limitOf(key), limitOf(key), value);
     else
         changed = pickColor(rowOf(key), limitOf(key), value);
     hold(editor);

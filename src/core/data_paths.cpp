@@ -1,11 +1,11 @@
-#include "run/data_paths.h"
+#include "core/data_paths.h"
 
 #include <dlfcn.h>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
 
-#include "core/cache_folder.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -42,19 +42,33 @@ std::string shaderRoot() {
                 "\n  set SHOAL_DATA to the folder that holds them");
 }
 
-gpu::ContextOptions contextOptions() {
-    gpu::ContextOptions out;
-    out.shaders = shaderRoot();
-    out.cache = cacheFolder();
-    return out;
-}
-
 std::string moleculeFolder() {
     return (fs::path(shaderRoot()).parent_path() / "molecules").string();
 }
 
 std::string modelFolder() {
     return (fs::path(shaderRoot()).parent_path() / "models").string();
+}
+
+std::vector<std::string> shippedMolecules() {
+    std::vector<std::string> names;
+    std::error_code code;
+    for (const auto& entry : fs::directory_iterator(moleculeFolder(), code)) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".json" && isShippedName(name)) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool isShippedName(const std::string& text) {
+    return !text.empty() && text.find_first_of(std::string("/\\.\0", 4)) == std::string::npos;
+}
+
+std::string moleculeFile(const std::string& written, const std::string& namedIn) {
+    const fs::path file = isShippedName(written) ? fs::path(moleculeFolder()) / (written + ".json")
+                                                 : fs::absolute(namedIn).parent_path() / written;
+    return file.lexically_normal().string();
 }
 
 }  // namespace shoal
