@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 
 # Colours differ for the colour-blind as well [Okabe 2008].
 colors = {"euler": "#555555", "verlet": "#56B4E9", "leapfrog": "#0072B2", "rk4": "#009E73", "xpbd": "#E69F00",
-          "bdf2-xpbd": "#D55E00", "bdf2-corotated": "#CC79A7"}
+          "bdf2-xpbd": "#D55E00", "bdf2-corotated": "#CC79A7", "bdf2-newton": "#F0E442"}
 strokes = {"vertexSubstep": ("-", "o"), "vertexFrame": ("--", "s"), "moleculeFrame": (":", "^")}
 quads = (1024, 16384, 131072, 1048576)
 bench_curves = (("ping-pong", "ping-pong", "#D55E00", "v"), ("scalar", "CPU, scalar", "#999999", "s"),

@@ -8,19 +8,33 @@ bool isFirstLane()
     return row() == 0;
 }
 
-// Through shared memory, so that every 4-vector is read once.
-void loadState(int molecule)
+// Loads an array of the state from 4-vector `begin` on, and the one behind it, through shared memory, so that every
+// 4-vector is read once.
+void shareElements(int first, int begin)
 {
-    int first = firstElement(molecule, STATE_ELEMENTS);
     for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
-        vec4 place = element(oldState, first, e);
-        vec4 velocity = element(oldState, first, POSITION_ELEMENTS + e);
+        vec4 place = element(oldState, first, begin + e);
+        vec4 velocity = element(oldState, first, begin + POSITION_ELEMENTS + e);
         for (int c = 0; c < 4; ++c) {
             sharedNumbers[sharedIndex(PLACES, 4 * e + c)] = place[c];
             sharedNumbers[sharedIndex(VELOCITIES, 4 * e + c)] = velocity[c];
         }
     }
     waitForGroup();
+}
+
+void loadState(int molecule)
+{
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    if (hasHistory) {
+        shareElements(first, 2 * POSITION_ELEMENTS);
+        for (int i = 0; i < VERTICES; ++i) {
+            dx[i] = sharedVector(PLACES, vertexOf(i));
+            dv[i] = sharedVector(VELOCITIES, vertexOf(i));
+        }
+        waitForGroup();
+    }
+    shareElements(first, 0);
     for (int i = 0; i < VERTICES; ++i) {
         x[i] = sharedVector(PLACES, vertexOf(i));
         v[i] = sharedVector(VELOCITIES, vertexOf(i));
@@ -39,6 +53,8 @@ void keepState(int molecule)
     for (int i = 0; i < VERTICES; ++i) {
         x[i] = packedVertex(oldState, first, 0, vertexOf(i));
         v[i] = packedVertex(oldState, first, POSITION_ELEMENTS, vertexOf(i));
+        if (hasHistory) dx[i] = packedVertex(oldState, first, 2 * POSITION_ELEMENTS, vertexOf(i));
+        if (hasHistory) dv[i] = packedVertex(oldState, first, 3 * POSITION_ELEMENTS, vertexOf(i));
     }
 }
 
@@ -75,6 +91,18 @@ void storeState(int molecule)
         }
         storeElement(first, e, place);
         storeElement(first, POSITION_ELEMENTS + e, velocity);
+    }
+    if (hasHistory) {
+        waitForGroup();
+        for (int i = 0; i < VERTICES; ++i) {
+            share(PLACES, i, dx[i]);
+            share(VELOCITIES, i, dv[i]);
+        }
+        waitForGroup();
+        for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
+            storeElement(first, 2 * POSITION_ELEMENTS + e, sharedElement(PLACES, e));
+            storeElement(first, 3 * POSITION_ELEMENTS + e, sharedElement(VELOCITIES, e));
+        }
     }
     if (isMortal && STATE_ELEMENTS % 2 == 1 && isFirstLane()) storeElement(first, STATE_ELEMENTS - 1, vec4(age, span, 0.0, 0.0));
 }

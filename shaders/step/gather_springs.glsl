@@ -10,12 +10,11 @@ struct SpringEnd {
     float inverseMass;  // 1/kg
 };
 
-// Returns the force of the spring at `entry` of the table, N; time: s since the frame's start, for muscles.
-vec3 tableSpringForce(int entry, SpringEnd own, float time)
+// Returns the rest length of the spring at `entry` of the table, m; drawn: as the table has it, m; time: s since the frame's
+// start, for muscles.
+float tableRestLength(int entry, float drawn, float time)
 {
-    vec4 spring = table(entry);
-    int other = int(spring.x);
-    float restLength = spring.w * scale;
+    float restLength = drawn * scale;
 #ifdef MUSCLES
     vec4 muscle = table(entry + 1);
 #ifdef STEERED
@@ -29,6 +28,15 @@ vec3 tableSpringForce(int entry, SpringEnd own, float time)
     restLength = bentLength(restLength, musclePull(muscle.xyz, angle, time, phase), 0.0);
 #endif
 #endif
+    return restLength;
+}
+
+// Returns the force of the spring at `entry` of the table, N.
+vec3 tableSpringForce(int entry, SpringEnd own, float time)
+{
+    vec4 spring = table(entry);
+    int other = int(spring.x);
+    float restLength = tableRestLength(entry, spring.w, time);
     return sprung(own.place - springPlace(other), own.velocity - springVelocity(other), spring.y, spring.z, restLength,
                   own.inverseMass + springInverseMass(other));
 }

@@ -144,8 +144,10 @@ class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
                 return stateMismatch(name, checkedScene(file), stored_, device_);
             });
         for (const auto& [name, scene] : solverScenes(folder_))
-            add("state", name,
-                [this, name = name, scene = scene] { return stateMismatch(name, scene, stored_, device_); });
+            add("state", name, [this, name = name, scene = scene] {
+                if (solver(*scene.solver.kind).spread) needCompute(device_);
+                return stateMismatch(name, scene, stored_, device_);
+            });
         selfChecks();
         paths();
         forms();

@@ -122,6 +122,8 @@ void checkStrain(const Scene& scene, const Group& group, Plan& plan, GroupPlan& 
     const int substeps = scene.solver.substeps;
     std::string instead = finer == 1 ? concat("use ", name(*better)) : steps(frame, frame / substeps / finer);
     if (finer > 1 && scene.solver.kind && *better != out.solver) instead += concat(", with ", name(*better));
+    if (finer > 1 && strain(SolverKind::bdf2Newton) <= most)
+        instead += concat(", or ", name(SolverKind::bdf2Newton), ", whose steps take long");
     plan.warnings.push_back(
         {scene.solver.location.empty() ? group.location : scene.solver.location,
          concat(name(out.solver), " strains the springs of \"", out.name, "\" by up to ", percent(left),
@@ -169,22 +171,27 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
     if (scene.solver.kind) {
         out.solver = *scene.solver.kind;
         out.solverWhy = "as the scene says";
-        if (out.solver == SolverKind::bdf2Corotated && !out.needs.springs) {
+        const bool matrix = out.factored() || solver(out.solver).spread;
+        if (matrix && !out.needs.springs) {
+            out.solverWhy = concat(name(out.solver), " without springs is the same");
             out.solver = SolverKind::bdf2Xpbd;
-            out.solverWhy = "bdf2-corotated without springs is the same";
         }
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";
     } else {
         out.solver = SolverKind::bdf2Xpbd;
-        const char* explicitly = safe             ? "the substep resolves the springs"
-                                 : !mends         ? "no solver resolves the forces with this substep"
-                                 : !fitsLane(out) ? "the molecule is large"
-                                 : step <= analysis.stableStepLeapfrog && takesLong(plan, out)
+        const char* explicitly = safe     ? "the substep resolves the springs"
+                                 : !mends ? "no solver resolves the forces with this substep"
+                                 : step > analysis.stableStepLeapfrog ? nullptr
+                                 : !fitsLane(out)                     ? "the molecule is large"
+                                 : takesLong(plan, out)
                                      ? "a CPU rasteriser would take too long to compile bdf2-xpbd"
                                      : nullptr;
-        if (explicitly) out.solver = SolverKind::leapfrog;
+        if (explicitly)
+            out.solver = SolverKind::leapfrog;
+        else if (!fitsLane(out))
+            out.solver = SolverKind::bdf2Newton;
         out.solverWhy = concat(explicitly ? explicitly : "the springs are stiff",
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     }

@@ -13,8 +13,10 @@ namespace shoal {
 //   leapfrog        too where only leapfrog is sure to run: a lane does not hold the molecule, or a CPU
 //                   rasteriser would refuse to compile bdf2-xpbd for it (compile/lanes.h), and the substep
 //                   holds leapfrog stable at rest
+//   bdf2-newton     where a lane does not hold the molecule otherwise
 //   bdf2-xpbd       otherwise, or
-//   bdf2-corotated  where sweeps strain the springs and it does not (compile/strain.h)
+//   bdf2-corotated  where sweeps strain the springs and it does not (compile/strain.h), or
+//   bdf2-newton     where it does, too
 //
 // The choice is the same on every device. `plan`: its fields and colliders are counted; takes the warnings.
 //

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include <Eigen/Dense>
 
@@ -69,7 +68,7 @@ std::string block(int number) {
 }
 
 // L y = residual, D z = y, L^T correction = z.
-std::string solveText(const CorotatedPattern& pattern) {
+std::string solveText(const BlockPattern& pattern) {
     std::string out =
         "\n// correction = A^-1 residual\nvoid applyInverse()\n{\n    for (int i = 0; i < VERTICES; ++i) {\n"
         "        correction[i] = residual[i];\n    }\n";
@@ -104,53 +103,11 @@ std::string restText(const Molecule& molecule) {
 
 }  // namespace
 
-// Greedily: the vertex with the fewest neighbours goes next, and joins them to one another.
-CorotatedPattern corotatedPattern(const Molecule& molecule, bool held) {
-    const size_t count = molecule.vertices.size();
-    const auto pinned = [&](size_t v) { return held && molecule.vertices[v].pinned; };
-    std::vector<std::set<int>> neighbours(count);
-    for (const Spring& spring : molecule.springs) {
-        if (pinned(size_t(spring.a)) || pinned(size_t(spring.b))) continue;
-        neighbours[size_t(spring.a)].insert(spring.b);
-        neighbours[size_t(spring.b)].insert(spring.a);
-    }
-    CorotatedPattern out;
-    std::vector<std::set<int>> joined;  // vertices below each place
-    std::set<int> open;
-    for (size_t v = 0; v < count; ++v)
-        if (!pinned(v)) open.insert(int(v));
-    while (!open.empty()) {
-        const int next = *std::min_element(open.begin(), open.end(), [&](int a, int b) {
-            return neighbours[size_t(a)].size() < neighbours[size_t(b)].size();
-        });
-        open.erase(next);
-        const std::set<int> rest = neighbours[size_t(next)];
-        for (const int a : rest) {
-            neighbours[size_t(a)].erase(next);
-            for (const int b : rest)
-                if (a != b) neighbours[size_t(a)].insert(b);
-        }
-        out.order.push_back(next);
-        joined.push_back(rest);
-    }
-    std::vector<int> place(count, -1);
-    for (size_t p = 0; p < out.order.size(); ++p)
-        place[size_t(out.order[p])] = int(p);
-    for (const std::set<int>& vertices : joined) {
-        out.diagonal.push_back(out.blocks++);
-        std::vector<int> below, numbers;
-        for (const int v : vertices)
-            below.push_back(place[size_t(v)]);
-        std::sort(below.begin(), below.end());
-        for (size_t i = 0; i < below.size(); ++i)
-            numbers.push_back(out.blocks++);
-        out.below.push_back(std::move(below));
-        out.block.push_back(std::move(numbers));
-    }
-    return out;
+int corotatedElements(const BlockPattern& pattern) {
+    return std::max(1, (9 * pattern.blocks + 3) / 4);
 }
 
-std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const CorotatedPattern& pattern,
+std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const BlockPattern& pattern,
                                         const CorotatedStage& stage) {
     const Eigen::MatrixXd whole = stageMatrix(molecule, stage);
     const Eigen::Index count = Eigen::Index(pattern.order.size());
@@ -159,7 +116,7 @@ std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const Corotate
         for (Eigen::Index j = 0; j < count; ++j)
             matrix.block<3, 3>(3 * i, 3 * j) =
                 whole.block<3, 3>(3 * pattern.order[size_t(i)], 3 * pattern.order[size_t(j)]);
-    std::vector<glm::vec4> out(size_t(std::max(1, pattern.elements())), glm::vec4(0));
+    std::vector<glm::vec4> out(size_t(corotatedElements(pattern)), glm::vec4(0));
     const auto keep = [&](int number, const Eigen::Matrix3d& block) {
         for (int k = 0; k < 9; ++k)
             out[size_t((9 * number + k) / 4)][(9 * number + k) % 4] = float(block(k % 3, k / 3));
@@ -178,9 +135,8 @@ std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const Corotate
     return out;
 }
 
-std::string corotatedBlock(const CorotatedPattern& pattern) {
-    return concat("layout(std140) uniform Factors { vec4 factors[", std::max(1, pattern.elements()),
-                  "]; };\n");
+std::string corotatedBlock(const BlockPattern& pattern) {
+    return concat("layout(std140) uniform Factors { vec4 factors[", corotatedElements(pattern), "]; };\n");
 }
 
 std::string corotatedConstants(const std::vector<glm::vec4>& factors) {
@@ -193,7 +149,7 @@ std::string corotatedConstants(const std::vector<glm::vec4>& factors) {
     return out + ");\n";
 }
 
-std::string corotatedText(const Molecule& molecule, const CorotatedPattern& pattern, bool held) {
+std::string corotatedText(const Molecule& molecule, const BlockPattern& pattern, bool held) {
     const std::array<int, 3> fit = widestTriangle(molecule);
     const double size = molecule.size();
     return concat("#define FIT_A ", fit[0], "\n#define FIT_B ", fit[1], "\n#define FIT_C ", fit[2],

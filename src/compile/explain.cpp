@@ -43,7 +43,7 @@ std::string lanesText(const Plan& plan, const GroupPlan& group, Lanes wanted) {
         out += concat(", compiled in about ", std::lround(secondsToCompile(plan, group)), " s");
     if (wanted != Lanes::automatic) return out + ", as asked";
     return out +
-           (solver(group.solver).implicit
+           (solver(group.solver).implicit && !solver(group.solver).spread
                 ? concat("; ", name(group.solver), " goes over the springs one after the other, in one lane")
                 : concat("; a lane a vertex holds ", FusedLimits::vertices(limits.maxSharedBytes),
                          " vertices with ", limits.maxSharedBytes, " bytes of shared memory"));

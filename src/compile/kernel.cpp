@@ -359,15 +359,15 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";
     text.forces += needs.springs ? springText(molecule, needs) : "void springForces(float time)\n{\n}\n";
     text.forces += needs.normals ? normalText(molecule) : "\nvoid surfaceNormals()\n{\n}\n";
-    if (solver.implicit && needs.springs)
+    if (solver.implicit && !solver.spread && needs.springs)
         text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);
-    else if (solver.implicit)
+    else if (solver.implicit && !solver.spread)
         text.sweeps =
             "void relaxForward(float time, float inverseEta)\n{\n}\n\n"
             "void relaxBackward(float time, float inverseEta)\n{\n}\n";
     if (solver.kind == SolverKind::bdf2Corotated)
         text.sweeps += stageText(molecule, needs) +
-                       corotatedText(molecule, corotatedPattern(molecule, needs.pins), needs.pins);
+                       corotatedText(molecule, blockPattern(molecule, needs.pins), needs.pins);
     addPacking(molecule, needs, solver.history, text);
     return text;
 }

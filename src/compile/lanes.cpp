@@ -146,17 +146,23 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
     return secondsToCompile(plan, group) > longestSeconds;
 }
 
-int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns) {
+int piecesOf(const Plan& plan, int vertices, int matrixTurns, int substeps, int mostTurns) {
     if (plan.contact.any()) return std::min(plan.contact.steps, substeps);
-    if (plan.colliders.turns == 0) return 1;
     constexpr double looks = 3;      // at all colliders, of a vertex and substep
     constexpr double marches = 300;  // turns of the way among those that are near, seldom more
-    const double turns = (looks * double(plan.colliders.turns) + marches) * vertices * substeps;
+    double turns = double(matrixTurns) * substeps;
+    if (plan.colliders.turns > 0)
+        turns += (looks * double(plan.colliders.turns) + marches) * vertices * substeps;
     return int(std::clamp(std::ceil(turns / (0.9 * mostTurns)), 1.0, double(substeps)));
 }
 
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
-    const bool implicit = solver(group.solver).implicit;
+    if (solver(group.solver).spread && wanted == Lanes::molecule)
+        throw Error(group.location,
+                    concat(name(group.solver), ", which \"", group.name,
+                           "\" takes, has a lane a vertex, in compute shaders alone: leave out --lanes "
+                           "molecule, or use another solver"));
+    const bool implicit = solver(group.solver).implicit && !solver(group.solver).spread;
     if (implicit && (wanted == Lanes::vertex || group.vertexCount > FusedLimits::laneVertices))
         throw Error(
             group.location,
@@ -166,27 +172,29 @@ Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const 
                          "leave out --lanes vertex or use an explicit solver")
                 : concat(name(group.solver), " keeps a molecule in one lane, which holds at most ",
                          FusedLimits::laneVertices, " vertices; a molecule of \"", group.name, "\" has ",
-                         group.vertexCount, ": use an explicit solver"));
+                         group.vertexCount, ": use bdf2-newton or an explicit solver"));
     if (implicit && group.springCount > FusedLimits::laneSprings)
         throw Error(group.location,
                     concat(name(group.solver), " writes out the springs of a molecule, at most ",
                            FusedLimits::laneSprings, "; a molecule of \"", group.name, "\" has ",
-                           group.springCount, ": use an explicit solver"));
+                           group.springCount, ": use bdf2-newton or an explicit solver"));
     if (group.needs.life && group.vertexCount > FusedLimits::laneVertices)
         throw Error(group.location, concat("molecules of more than ", FusedLimits::laneVertices,
                                            " vertices cannot be born or die; one of \"", group.name,
                                            "\" has ", group.vertexCount));
     if (implicit) {
-        checkSeconds(plan, group, limits, "use an explicit solver");
+        checkSeconds(plan, group, limits, "use bdf2-newton or an explicit solver");
         return Lanes::molecule;
     }
     if (wanted != Lanes::molecule && group.vertexCount > FusedLimits::vertices(limits.maxSharedBytes)) {
-        if (wanted == Lanes::automatic && fitsLane(group)) return Lanes::molecule;
+        if (wanted == Lanes::automatic && fitsLane(group) && !solver(group.solver).spread)
+            return Lanes::molecule;
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a workgroup holds at most ",
                                            FusedLimits::vertices(limits.maxSharedBytes), " in ",
                                            limits.maxSharedBytes, " bytes of shared memory"));
     }
+    if (solver(group.solver).spread) return Lanes::vertex;
     if (wanted == Lanes::automatic)
         return fitsLane(group) && prefersLane(plan, group, limits) ? Lanes::molecule : Lanes::vertex;
     if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::laneVertices)

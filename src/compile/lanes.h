@@ -50,9 +50,10 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group);
 bool takesLong(const Plan& plan, const GroupPlan& group);
 
 // The number of dispatches that a frame is cut into: its steps of contact between molecules or, without
-// contact, so many that a lane with so many vertices stays below the turns of loops that a CPU rasteriser
-// takes, mostly 1. What needs more turns is noticed (shaders/fused/frame.glsl).
-int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns);
+// contact, so many that a lane with so many vertices, and so many turns a substep for a matrix
+// (compile/newton.h), stays below the turns of loops that a CPU rasteriser takes, mostly 1. What needs more
+// turns is noticed (shaders/fused/frame.glsl).
+int piecesOf(const Plan& plan, int vertices, int matrixTurns, int substeps, int mostTurns);
 
 // Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
 // to compile.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compile/muscle_waves.h"
+#include "compile/newton.h"
 #include "compile/school_plan.h"
 #include "core/random.h"
 
@@ -158,6 +159,7 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
     topology.resize(base + 2 * count);
     for (const Triangle& t : molecule.triangles)
         topology.emplace_back(t.a, t.b, t.c, 0);
+    if (solver(group.solver).spread) addNewtonTable(molecule, group.matrix, topology);
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
         const bool pinned = group.needs.pins && vertex.pinned;

@@ -90,7 +90,7 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
 // The matrix of bdf2-corotated is a uniform block, but for CPU rasterisers.
 void checkMatrix(const GroupPlan& group, const PathLimits& limits) {
     if (!group.factored() || limits.software) return;
-    const int bytes = corotatedPattern(group.shape, group.needs.pins).elements() * int(sizeof(glm::vec4));
+    const int bytes = corotatedElements(blockPattern(group.shape, group.needs.pins)) * int(sizeof(glm::vec4));
     if (bytes <= limits.maxUniformBlockBytes) return;
     throw Error(group.location,
                 concat("the matrix of \"", group.name, "\" takes ", bytes, " bytes; a uniform block holds ",

@@ -9,6 +9,7 @@
 #include "compile/generate_emitters.h"
 #include "compile/lanes.h"
 #include "compile/muscle_limits.h"
+#include "compile/newton.h"
 #include "compile/pack.h"
 #include "compile/scene_warnings.h"
 #include "compile/surface_pair.h"
@@ -244,6 +245,7 @@ Plan planGroups(const Scene& scene, const CompileOptions& options) {
 void fill(GroupPlan& group, const Scene& scene, Plan& plan) {
     const Group& source = scene.groups[group.index];
     const Molecule& molecule = source.molecule;
+    if (solver(group.solver).spread) group.matrix = newtonPattern(molecule, group);
     group.topologyBase = packTopology(molecule, group, plan.topology);
     const double vertices = double(group.count) * group.vertexCount;
     const std::string what =

@@ -15,6 +15,7 @@
 //                                  steers the bend in its place (compile/school_plan.h), and where waves are
 //                                  shared (compile/muscle_waves.h) amplitude, number of the wave, 0
 //   triangle entries, one texel    the other two corners, anticlockwise after v; which of the three v is
+//   base + 2 vertexCount + triangleCount    with bdf2-newton: the table of its matrix (compile/newton.h)
 #pragma once
 
 #include <algorithm>
@@ -25,6 +26,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/block_pattern.h"
 #include "compile/contact_plan.h"
 #include "compile/generate.h"
 #include "compile/generate_forces.h"
@@ -69,7 +71,8 @@ struct GroupPlan {
     KernelText kernel;                     // of the fused path
     std::vector<glm::vec4> springNumbers;  // needs.liveSprings: see compile/kernel.h
     std::vector<double> springFrequencies;
-    Molecule shape;  // bdf2-corotated only: of its matrix (compile/corotated.h)
+    Molecule shape;       // bdf2-corotated only: of its matrix (compile/corotated.h)
+    BlockPattern matrix;  // bdf2-newton only (compile/newton.h)
 
     // Whether nothing of it ever moves.
     bool isStill() const {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include "compile/corotated.h"
 #include "compile/kernel.h"
+#include "compile/newton.h"
 
 namespace shoal {
 
@@ -40,8 +42,15 @@ class StrainedMolecule {
         dv_ = z_ = q_ = start_ = dx_;
         for (const Spring& spring : molecule.springs)
             restLength_.push_back(run.scale * molecule.restLength(spring));
+        if (solver(run.solver).spread) {
+            pattern_ = blockPattern(molecule, run.held, Elimination::fewestRounds);
+            for (size_t p = 0; p < pattern_.order.size(); ++p)
+                for (size_t n = 0; n < pattern_.below[p].size(); ++n)
+                    number_[{pattern_.order[p], pattern_.order[size_t(pattern_.below[p][n])]}] =
+                        pattern_.block[p][n];
+        }
         if (run.solver != SolverKind::bdf2Corotated) return;
-        pattern_ = corotatedPattern(molecule, run.held);
+        pattern_ = blockPattern(molecule, run.held);
         const double eta = 2 * run.substep / run.finer / 3;
         const std::vector<glm::vec4> factors =
             corotatedFactors(molecule, pattern_, {eta, 0, run.stiffness, run.damping});
@@ -59,7 +68,9 @@ class StrainedMolecule {
             z_[i] = !history_ ? glm::dvec3(0) : fresh_ ? run_.gravity * (-0.5 * h * h) : dx_[i] / 3.0;
             start_[i] = q_[i] = z_[i] + unsprung * eta_;
         }
-        if (run_.solver == SolverKind::bdf2Corotated)
+        if (solver(run_.solver).spread)
+            solveNewton();
+        else if (run_.solver == SolverKind::bdf2Corotated)
             solveCorotated();
         else
             sweep(history_);
@@ -194,6 +205,75 @@ class StrainedMolecule {
         solved();
     }
 
+    // The Newton steps of shaders/solver/bdf2-newton.glsl.
+    void solveNewton() {
+        const double least = newtonSettles * run_.scale * molecule_.size();
+        for (int step = 0; step < newtonSteps; ++step) {
+            Vectors residual = assemble();
+            factor();
+            applyInverse(residual);
+            double furthest = 0;
+            for (size_t i = 0; i < x_.size(); ++i) {
+                if (inverseMass_[i] == 0) continue;
+                q_[i] += residual[i];
+                furthest = std::max(furthest, glm::length(residual[i]));
+            }
+            if (furthest <= least) return;
+        }
+    }
+
+    // Fills the blocks with the matrix at x + q. Returns the stage's residual, N.
+    Vectors assemble() {
+        Vectors residual(x_.size(), glm::dvec3(0));
+        std::vector<glm::dmat3> own(x_.size(), glm::dmat3(0));
+        blocks_.assign(size_t(pattern_.blocks), glm::dmat3(0));
+        for (size_t i = 0; i < x_.size(); ++i) {
+            if (inverseMass_[i] == 0) continue;
+            own[i] = glm::dmat3(1 / (inverseMass_[i] * eta_ * eta_));
+            residual[i] = -own[i] * (q_[i] - start_[i]);
+        }
+        for (size_t s = 0; s < restLength_.size(); ++s) {
+            const Spring& spring = molecule_.springs[s];
+            const size_t a = size_t(spring.a), b = size_t(spring.b);
+            const glm::dvec3 known = x_[a] - x_[b] + z_[a] - z_[b], d = x_[a] - x_[b] + q_[a] - q_[b];
+            const double length = std::max(glm::length(d), 1e-12);
+            const glm::dvec3 n = d / length, along = fresh_ ? (d + known) / (length + glm::length(known)) : n;
+            const double k = run_.stiffness * spring.stiffness, c = run_.damping * spring.damping / eta_;
+            const double tension = k * (length - restLength_[s]) + c * glm::dot(along, d - known);
+            const double turning = std::clamp(tension / length, 0.0, k + c);
+            const glm::dmat3 change = glm::dmat3(turning) + glm::outerProduct(n, n * (k + c - turning));
+            residual[a] -= n * tension, residual[b] += n * tension;
+            own[a] += change, own[b] += change;
+            for (const auto& ends : {std::pair(spring.a, spring.b), std::pair(spring.b, spring.a)})
+                if (const auto number = number_.find(ends); number != number_.end())
+                    blocks_[size_t(number->second)] -= change;
+        }
+        for (size_t p = 0; p < pattern_.order.size(); ++p)
+            blocks_[size_t(pattern_.diagonal[p])] = own[size_t(pattern_.order[p])];
+        return residual;
+    }
+
+    // Turns the blocks of the matrix into those of its factors, L and the inverse of D, for applyInverse().
+    void factor() {
+        for (size_t p = 0; p < pattern_.order.size(); ++p) {
+            glm::dmat3& diagonal = blocks_[size_t(pattern_.diagonal[p])];
+            diagonal = glm::inverse(diagonal);
+            const std::vector<int>&below = pattern_.below[p], &numbers = pattern_.block[p];
+            for (size_t i = 0; i < below.size(); ++i) {
+                const glm::dmat3 row = blocks_[size_t(numbers[i])] * diagonal;
+                for (size_t j = 0; j <= i; ++j) {
+                    const int later = below[i], earlier = below[j];
+                    const int target =
+                        i == j ? pattern_.diagonal[size_t(later)]
+                               : number_.at({pattern_.order[size_t(earlier)], pattern_.order[size_t(later)]});
+                    blocks_[size_t(target)] -= row * glm::transpose(blocks_[size_t(numbers[j])]);
+                }
+            }
+            for (const int number : numbers)
+                blocks_[size_t(number)] = blocks_[size_t(number)] * diagonal;
+        }
+    }
+
     const Molecule& molecule_;
     StrainRun run_;
     bool history_;
@@ -205,10 +285,11 @@ class StrainedMolecule {
     Vectors x_, v_, dx_, dv_;          // m, m/s, and their changes in the last substep
     Vectors z_, q_, start_;            // m: known before the stage, its solution, and that without springs
     glm::dmat3 turn_{1};               // of the rest shape
-    CorotatedPattern pattern_;
-    std::vector<glm::dmat3> blocks_;  // of the factors
-    double eta_ = 0;                  // s
-    bool fresh_ = true;               // no history
+    BlockPattern pattern_;
+    std::vector<glm::dmat3> blocks_;             // of the factors
+    std::map<std::pair<int, int>, int> number_;  // bdf2-newton: of a block, by the vertices that it joins
+    double eta_ = 0;                             // s
+    bool fresh_ = true;                          // no history
 };
 
 }  // namespace

@@ -98,6 +98,20 @@ constexpr Solver table[] = {
      .evaluations = 2,
      .vectors = 5,
      .secondsPerSpring = 0.0653},
+    // BDF2 whose stage is solved: Newton steps with the molecule's own matrix. For large stiff molecules,
+    // long chains
+    // under load and springs whose damping outweighs all else.
+    {.kind = SolverKind::bdf2Newton,
+     .name = "bdf2-newton",
+     .order = 2,
+     .implicit = true,
+     .spread = true,
+     .history = true,
+     .mostDragged = any,
+     .mostForced = 1.6,
+     .evaluations = 3,
+     .vectors = 5,
+     .secondsPerSpring = 0},
 };
 
 // Whether solver(kind) finds each in its place, with a limit where it has one and stages that the shader can
@@ -110,7 +124,7 @@ consteval bool sound() {
         if (int(solver.implicit) + int(solver.stableStep != nullptr) + int(solver.tableau.stages > 0) != 1)
             return false;
     }
-    return std::size(table) > size_t(SolverKind::bdf2Corotated);
+    return std::size(table) > size_t(SolverKind::bdf2Newton);
 }
 static_assert(sound());
 

@@ -15,7 +15,7 @@ constexpr double slipFrom = 1;
 struct Analysis;  // molecule/analysis.h
 
 // A solver is a row of the table in solver.cpp. Here are the names of those that code asks for.
-enum class SolverKind { euler, verlet, leapfrog, rk4, xpbd, bdf2Xpbd, bdf2Corotated };
+enum class SolverKind { euler, verlet, leapfrog, rk4, xpbd, bdf2Xpbd, bdf2Corotated, bdf2Newton };
 
 // The Butcher tableau of an explicit Runge-Kutta method. Stage s takes its rates k_s of position and velocity
 // at start + h (sum of a[s][j] k_j over j < s), and a substep ends at start + h (sum of b[s] k_s).
@@ -62,6 +62,7 @@ struct Solver {
     const char* name;         // in files and on the command line
     int order;                // of its error in h, in smooth motion
     bool implicit = false;    // no limit on w h; the fused path only
+    bool spread = false;      // over lanes: has a lane a vertex, in compute shaders alone (compile/newton.h)
     bool history = false;     // keeps the change of the last substep beside the state
     double mostDragged;       // largest drag rate times h that it takes; infinite where it takes any
     double mostForced;        // frequency of a force (scene/force.h) times h up to which it is stable

@@ -1,5 +1,6 @@
 #include "simulate/buffer_state.h"
 
+#include "compile/newton.h"
 #include "core/contract.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -15,6 +16,8 @@ using gpu::BufferTexture;
 using gpu::Traffic;
 
 namespace {
+
+constexpr size_t mostNumbers = size_t(128) << 20;  // bytes of matrices that are worked on
 
 Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements, const char* what) {
     try {
@@ -45,6 +48,7 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
                            int together, size_t largestPart)
     : PackedState(group, group.layout().padded(size_t(group.count)), BufferLayout::block),
       inPlace_(inPlace),
+      numbers_(solver(group.solver).spread ? newtonNumbers(group) : 0),
       together_(together) {
     const auto make = [&](Values values, const char* what) {
         return makeBuffer(context, group, molecules() * size_t(elements(values)), what);
@@ -65,6 +69,13 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
     if (group.needs.steers) steering_ = make(Values::steering, "steering");
     split(context, largestPart);
     parts_.back().count = group.count - parts_.back().first;
+    if (numbers_ == 0) return;
+    const auto most = std::max_element(parts_.begin(), parts_.end(),
+                                       [](const Part& a, const Part& b) { return a.count < b.count; });
+    const size_t molecules = size_t(workgroups(*most)) * size_t(together_);
+    matrixNumbers_ =
+        Buffer(context, Buffer::Use::storage, nullptr, molecules * size_t(numbers_) * sizeof(double),
+               concat("matrix of ", group.name).c_str());
 }
 
 GroupBuffers::Range GroupBuffers::rangeOf(const Part& part, const Buffer& buffer, int elements) const {
@@ -84,6 +95,9 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
         std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /
         elements;
     most = std::min(most, size_t(info.maxWorkGroupsX) * size_t(together_));
+    if (numbers_ > 0)
+        most = std::min(most, std::min(size_t(info.maxStorageBlockBytes), mostNumbers) /
+                                  (size_t(numbers_) * sizeof(double)));
     if (largestPart > 0) most = std::min(most, largestPart);
     most = std::max(most / unit, size_t(1)) * unit;
     for (size_t first = 0; first < molecules(); first += most) {
@@ -120,12 +134,15 @@ void GroupBuffers::bindNew(const gpu::Program& program, const Part& part) const 
     store(program, "NewState", newState(part));
     if (program.declares("NewRecords")) store(program, "NewRecords", records(part));
     if (program.declares("NewNormals")) store(program, "NewNormals", normals(part));
+    if (!program.declares("MatrixNumbers")) return;
+    gpu::barrier({gpu::Barrier::storage});  // another part may still work on it
+    program.storage("MatrixNumbers", matrixNumbers_);
 }
 
 void GroupBuffers::run(const gpu::Program& program, size_t index, Output) const {
     const Part& part = parts_[index];
     bindNew(program, part);
-    program.dispatch((part.count + together_ - 1) / together_);
+    program.dispatch(workgroups(part));
 }
 
 template <typename Self>

@@ -6,6 +6,7 @@
 //   record    xyz anchor, m; w: 1 + seed, negative once pins are released    (a lane writes only its own)
 //   constant  x scale, y phase, rad; only where instances differ
 //   normal    3 floats a vertex, unit; only where something is drawn
+//   matrix    what bdf2-newton works on, of the molecules of one dispatch
 //
 // A group that is larger than the device's blocks is split into parts, each a range of whole workgroups of
 // molecules.
@@ -69,13 +70,15 @@ class GroupBuffers : public PackedState {
     std::vector<glm::vec4> download(Values values, size_t molecule) const override;
     // A part of a buffer with so many 4-vectors a molecule.
     Range rangeOf(const Part& part, const gpu::Buffer& buffer, int elements) const;
+    int workgroups(const Part& part) const { return (part.count + together_ - 1) / together_; }
     void split(gpu::Context& context, size_t largestPart);
 
     bool inPlace_ = false;
+    int numbers_;  // doubles of a molecule that is worked on (compile/newton.h)
     int together_;
     int current_ = 0;
     std::array<gpu::Buffer, 2> state_;
-    gpu::Buffer records_, constants_, normals_, steering_;
+    gpu::Buffer records_, constants_, normals_, steering_, matrixNumbers_;
     std::vector<Part> parts_;
 };
 

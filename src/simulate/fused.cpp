@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compile/newton.h"
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
 
@@ -109,6 +110,9 @@ void Fused::makeGroup(gpu::Context& context, const KernelSource& source, size_t 
     const KernelOptions kernel = kernelOptions(context.info(), plan, options);
     if (kernel.software && plan.needs.collide)
         mostVertices_ = std::max(mostVertices_, verticesOfLane(plan, kernel));
+    if (kernel.software && solver(plan.solver).spread)
+        matrixTurns_ =
+            std::max(matrixTurns_, newtonTurns(plan, workgroupShape(plan.vertexCount, kernel.sharedBytes)));
     if (textures())
         layers.emplace_back(context, plan, options.drawn, *kernel.targets);
     else
@@ -143,7 +147,8 @@ void Fused::bind(const Program& program, size_t group, size_t range) const {
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, timers);
-    pieces_ = piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
+    pieces_ =
+        piecesOf(*plan_, mostVertices_, matrixTurns_, frame.parameters.substeps, gpu::mostSoftwareTurns);
     for (int i = 0; i < pieces_; ++i) {
         const Frame piece = pieceOf(frame, i, pieces_);
         if (contact_) contact_->begin(piece);

@@ -91,6 +91,7 @@ class Fused : public ExecutionPath {
     Form form_;
     bool ahead_ = false;    // frames are issued before it is known whether one ran away
     int mostVertices_ = 0;  // of a lane, where loops end early (compile/lanes.h: piecesOf)
+    int matrixTurns_ = 0;   // of bdf2-newton on a CPU rasteriser, the most of a group
     int pieces_ = 1;        // steps of the last frame
     gpu::Programs programs_;
     std::vector<Group> groups_;

@@ -6,6 +6,7 @@
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
+#include "compile/newton.h"
 #include "core/contract.h"
 #include "gpu/shader_source.h"
 #include "simulate/tables.h"
@@ -134,6 +135,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         for (const std::string& wanted : contact->defines())
             out.push_back(wanted);
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
+    for (const std::string& wanted : newtonDefines(group))
+        out.push_back(wanted);
     if (births && options.targets)
         out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", std::countr_zero(unsigned(stateWidth)))});
     if (needs.life) defineLife(*group.life, births, out);
@@ -177,7 +180,7 @@ std::string rootText(const Plan& plan, const GroupPlan& group, const KernelOptio
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
-        include(true, "generated/sweeps.glsl");
+        include(!solver(group.solver).spread, "generated/sweeps.glsl");
     }
     include(true, group.needs.collide ? "generated/colliders.glsl" : "fused/no_contact.glsl");
     include(true, solver(group.solver).history ? "fused/bdf2.glsl" : "fused/no_history.glsl");
@@ -291,7 +294,7 @@ std::string packingText(const GroupPlan& group, const KernelOptions& options) {
 
 std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
     if (!group.factored() || !options.factors.empty()) return options.factors;
-    return corotatedBlock(corotatedPattern(group.shape, group.needs.pins));
+    return corotatedBlock(blockPattern(group.shape, group.needs.pins));
 }
 
 // Writing out a long loop takes long to compile, mostly in the driver; keeping it costs a GPU its registers.

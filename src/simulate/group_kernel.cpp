@@ -61,7 +61,7 @@ const Program& GroupKernel::also(KernelOptions::Work work) {
 // A GPU reads the matrix from a buffer. To a CPU rasteriser every read of a uniform is a call: there it
 // becomes constants of the program, which is made anew when the step or a slider changes it.
 void GroupKernel::makeFactors() {
-    const CorotatedPattern pattern = corotatedPattern(group().shape, group().needs.pins);
+    const BlockPattern pattern = blockPattern(group().shape, group().needs.pins);
     const std::vector<glm::vec4> factors = corotatedFactors(group().shape, pattern, stage_);
     if (options_.software) {
         options_.factors = corotatedConstants(factors);

@@ -94,11 +94,16 @@ inline std::vector<SolverKind> explicitSolvers() {
     return out;
 }
 
-// All that the tested path runs.
+// Whether the tested path runs it.
+inline bool runsHere(const Solver& solver) {
+    if (testPath() == Path::pingPong) return !solver.implicit;
+    return !solver.spread || (testPath() != Path::fragments && testContext().info().computeShaders);
+}
+
 inline std::vector<SolverKind> solversHere() {
     std::vector<SolverKind> out;
     for (const Solver& one : solvers())
-        if (testPath() != Path::pingPong || !one.implicit) out.push_back(one.kind);
+        if (runsHere(one)) out.push_back(one.kind);
     return out;
 }
 

@@ -180,7 +180,7 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
         if (method.rungeKutta())
             rungeKuttaStep(problem, smooth, method.tableau, state, h);
         else if (method.history)
-            bdf2Step(problem, state, history, h, kind == SolverKind::bdf2Corotated);
+            bdf2Step(problem, state, history, h, kind);
         else if (kind == SolverKind::euler)
             eulerStep(problem, state, h);
         else if (kind == SolverKind::verlet)

@@ -66,9 +66,9 @@ struct History {
 };
 
 // BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history: exact for free
-// flight in the fluid where the stage reads it, and the springs by backward Euler, eta = h. `corotated`:
-// quasi-Newton steps, guarded as the shader is; else two sweeps, there and back.
-void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated);
+// flight in the fluid where the stage reads it, and the springs by backward Euler, eta = h. `kind`: one with
+// history, which says how the stage is solved, guarded as the shader is.
+void bdf2Step(const Problem& problem, State& state, History& history, double h, SolverKind kind);
 
 // A frame of `substeps` equal steps of any solver; leapfrog evaluates a anew at its start, and those with
 // history start without.

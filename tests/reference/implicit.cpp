@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "compile/kernel.h"
+#include "compile/newton.h"
 #include "molecule/skin.h"
 #include "reference/discrete.h"
 #include "reference/fields.h"
@@ -214,6 +215,60 @@ void solveCorotated(const Problem& problem, const State& state, bool fresh, Stag
     improve(problem, state, eta, start, stage);
 }
 
+// Newton steps with the matrix of the molecule as it is, without how a damper's pull turns with its spring.
+void solveNewton(const Problem& problem, const State& state, bool fresh, Stage& stage) {
+    const Molecule& molecule = *problem.molecule;
+    const Vectors start = stage.moved;
+    const Eigen::Index size = 3 * Eigen::Index(start.size());
+    const double settled = newtonSettles * problem.scale * molecule.size();
+    for (int step = 0; step < newtonSteps; ++step) {
+        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+        Eigen::VectorXd residual = Eigen::VectorXd::Zero(size);
+        for (const Spring& spring : molecule.springs) {
+            const size_t a = size_t(spring.a), b = size_t(spring.b);
+            const glm::dvec3 known =
+                (state.position[a] + stage.known[a]) - (state.position[b] + stage.known[b]);
+            const glm::dvec3 d = (state.position[a] + stage.moved[a]) - (state.position[b] + stage.moved[b]);
+            const double length = std::max(glm::length(d), 1e-12);
+            const glm::dvec3 n = d / length, along = fresh ? (d + known) / (length + glm::length(known)) : n;
+            const double k = problem.stiffness * spring.stiffness,
+                         c = problem.damping * spring.damping / stage.eta;
+            const double tension =
+                k * (length - restLength(problem, spring, stage.time)) + c * glm::dot(along, d - known);
+            const double turning = std::clamp(tension / length, 0.0, k + c);
+            const Eigen::Vector3d unit = toEigen(n);
+            const Eigen::Matrix3d change =
+                turning * Eigen::Matrix3d::Identity() + (k + c - turning) * unit * unit.transpose();
+            for (const int row : {spring.a, spring.b}) {
+                residual.segment<3>(3 * row) -= (row == spring.a ? tension : -tension) * unit;
+                for (const int column : {spring.a, spring.b})
+                    matrix.block<3, 3>(3 * row, 3 * column) += row == column ? change : -change;
+            }
+        }
+        for (size_t i = 0; i < start.size(); ++i) {
+            const Eigen::Index row = 3 * Eigen::Index(i);
+            if (problem.pinned(i)) {
+                matrix.middleRows<3>(row).setZero(), matrix.middleCols<3>(row).setZero();
+                matrix.block<3, 3>(row, row).setIdentity();
+                residual.segment<3>(row).setZero();
+                continue;
+            }
+            const glm::dmat3 heavy = glm::inverse(stage.weight[i]);
+            residual.segment<3>(row) -= toEigen(heavy * (stage.moved[i] - start[i]));
+            for (int column = 0; column < 3; ++column)
+                matrix.block<3, 1>(row, row + column) += toEigen(heavy[column]);
+        }
+        const Eigen::VectorXd change = Eigen::LDLT<Eigen::MatrixXd>(matrix).solve(residual);
+        double furthest = 0;
+        for (size_t i = 0; i < start.size(); ++i) {
+            const Eigen::Vector3d d = change.segment<3>(3 * Eigen::Index(i));
+            stage.moved[i] += glm::dvec3(d.x(), d.y(), d.z());
+            furthest = std::max(furthest, d.norm());
+        }
+        if (furthest <= settled) return;
+    }
+}
+
 }  // namespace
 
 void xpbdStep(const Problem& problem, State& state, double h) {
@@ -249,7 +304,7 @@ static void pushAhead(const Problem& problem, State& state, const History& histo
         if (!problem.pinned(i)) state.velocity[i] += gained;
 }
 
-void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated) {
+void bdf2Step(const Problem& problem, State& state, History& history, double h, SolverKind kind) {
     const size_t count = state.position.size();
     const bool fresh = history.displacement.empty();
     const double eta = fresh ? h : 2 * h / 3;
@@ -282,7 +337,9 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
         stage.moved[i] = stage.known[i] + eta * velocity;
         stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
     }
-    if (corotated)
+    if (kind == SolverKind::bdf2Newton)
+        solveNewton(problem, state, fresh, stage);
+    else if (kind == SolverKind::bdf2Corotated)
         solveCorotated(problem, state, fresh, stage);
     else
         sweep(problem, state, stage, true);

@@ -76,7 +76,8 @@ TEST_CASE("what a CPU rasteriser would compile for long is refused where a lane 
     const Plan stiff = planOf(bench::cloth(8), 0, SolverKind::bdf2Xpbd);
     CHECK(chosen(stiff, false) == Lanes::molecule);
     CHECK_THAT(messageOf([&] { chosen(stiff, true); }),
-               Catch::Contains("with bdf2-xpbd in one lane") && Catch::Contains("use an explicit solver"));
+               Catch::Contains("with bdf2-xpbd in one lane") &&
+                   Catch::Contains("use bdf2-newton or an explicit solver"));
     CHECK(chosen(planOf(row(32, true), 1, SolverKind::bdf2Xpbd), true) == Lanes::molecule);
     // Fragments do not take it either: they would take even longer to compile it.
     PathLimits rasteriser;
@@ -121,6 +122,40 @@ TEST_CASE("auto takes no implicit solver that a CPU rasteriser would refuse to c
     CHECK(stiff.groups[0].solver == SolverKind::bdf2Xpbd);
     CHECK(chosen(stiff, false) == Lanes::molecule);
     CHECK_THROWS_AS(chosen(stiff, true), Error);
+}
+
+TEST_CASE("bdf2-newton has a lane a vertex, and auto takes it where a lane does not hold a stiff molecule",
+          "[lanes][solvers]") {
+    for (const bool software : {false, true}) {
+        const Plan plan = planOf(row(24, true), 2, SolverKind::bdf2Newton);
+        CHECK(chosen(plan, software) == Lanes::vertex);
+        CHECK(chosen(plan, software, Lanes::vertex) == Lanes::vertex);
+        CHECK_THAT(messageOf([&] { chosen(plan, software, Lanes::molecule); }),
+                   Catch::Contains("bdf2-newton") && Catch::Contains("leave out --lanes molecule"));
+    }
+    Scene scene;
+    scene.groups.resize(1);
+    scene.groups[0].name = "cloth";
+    scene.groups[0].molecule = bench::cloth(12);
+    scene.groups[0].count = 1;
+    scene.groups[0].stiffness = 1e5;
+    const Plan large = compile(scene);
+    CHECK(large.groups[0].solver == SolverKind::bdf2Newton);
+    CHECK_THAT(large.groups[0].solverWhy, Catch::StartsWith("the springs are stiff"));
+    CHECK(choosePath(large, Path::automatic, {}).path == Path::fused);
+    PathLimits old;
+    old.compute = false;
+    old.version = "3.3";
+    CHECK_THAT(messageOf([&] { choosePath(large, Path::automatic, old); }),
+               Catch::Contains("bdf2-newton") && Catch::Contains("compute shaders alone"));
+    CHECK_THAT(messageOf([&] { choosePath(large, Path::pingPong, {}); }),
+               Catch::Contains("bdf2-newton") && Catch::Contains("needs the fused path"));
+    // more than a workgroup holds
+    CHECK_THAT(messageOf([&] { chosen(planOf(row(1400, true), 0, SolverKind::bdf2Newton), false); }),
+               Catch::Contains("a workgroup holds at most 1365"));
+    // springs that the substep resolves
+    scene.groups[0].stiffness = 1;
+    CHECK(compile(scene).groups[0].solver == SolverKind::leapfrog);
 }
 
 TEST_CASE("molecules that no path holds are refused by their vertices alone, as their plan is", "[lanes]") {
