@@ -43,12 +43,6 @@ vec2 materialOf(Sphere a, Sphere b)
     return materialsAt(int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
 }
 
-// Whether the vertices of its molecule move against one another.
-bool isSoft(Sphere sphere)
-{
-    return materialsAt(int(sphere.label >> 26u) * groupCount).z > 0.0;
-}
-
 int listedOf(int slot)
 {
     return listedIn(countsAt(slot));

@@ -23,6 +23,12 @@ vec3 store(int slot, int other, ContactImpulse known, out ContactImpulse kept)
     return known.sticks ? -slip * back : vec3(0.0);
 }
 
+// Whether the vertices of its molecule move against one another.
+bool isSoft()
+{
+    return materialsAt(int(own.label >> 26u) * groupCount).z > 0.0;
+}
+
 // Returns what acts on the sphere over the next step, N s: what has acted over this one, with a tenth of what was missing, and not much more
 // than a weight. So it is in balance where the impulses are, on a rigid body as a whole, too. `sum`: of the impulses, N s.
 vec3 followed(vec3 sum, vec3 missing)
@@ -91,7 +97,7 @@ void main()
     putTotals(slot, 1, vec4(shift, 0.0));
     putNextTotals(slot, 0, vec4(total.xyz, 0.0));
     putNextTotals(slot, 1, vec4(shift, 0.0));
-    vec3 acts = isSoft(own) ? nearSum(sum, keeps) : followed(sum, missing);
+    vec3 acts = isSoft() ? nearSum(sum, keeps) : followed(sum, missing);
     if (listed == 0 && !isHeld) acts = vec3(0.0);
     putWarmStart(memoryRow(slot), vec4(acts, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));
 }
