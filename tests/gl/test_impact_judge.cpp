@@ -272,7 +272,7 @@ TEST_CASE("impacts of clusters are those of events", "[impacts]") {
 TEST_CASE("impacts of rigid bodies are those of events", "[impacts]") {
     if (!canFuse()) return;
     const Path path = GENERATE(Path::fused, Path::fragments);
-    const double e = GENERATE(1.0, 0.5, 0.2), friction = GENERATE(0.0, 0.3, 1.0);
+    const double e = GENERATE(1.0, 0.3), friction = GENERATE(0.0, 0.5);
     constexpr size_t pairs = 100, corners = 4;
     constexpr int frames = 240;
     std::mt19937 random(17);
