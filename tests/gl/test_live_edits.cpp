@@ -15,9 +15,7 @@
 
 using namespace shoal;
 using namespace shoal::test;
-using window::memberOf;
 using window::RunningScene;
-using window::setMember;
 
 namespace {
 
