@@ -175,9 +175,7 @@ struct Flying {
     dvec3 placeOf(size_t sphere, double time) const {
         return body.center + time * body.velocity + turn(time) * arms[sphere];
     }
-    dvec3 velocityOf(size_t sphere, double time) const {
-        return body.velocityAt(turn(time) * arms[sphere]);
-    }
+    dvec3 velocityOf(size_t sphere, double time) const { return body.velocityAt(turn(time) * arms[sphere]); }
 };
 
 // Two that do not turn until they meet.
@@ -218,8 +216,7 @@ struct BodyPair {
         push(normal * n);
         const dvec3 across = slip() - glm::dot(slip(), n) * n;
         const double speed = glm::length(across);
-        if (speed > 0)
-            push(-std::min(speed / weight(across / speed), friction * normal) * (across / speed));
+        if (speed > 0) push(-std::min(speed / weight(across / speed), friction * normal) * (across / speed));
     }
 
     // Whether other spheres touch so many seconds later.
@@ -246,8 +243,8 @@ struct BodyPair {
 
 }  // namespace
 
-// Where a step has more impacts of one sphere than there are rounds, some wait for the next: then a cluster is
-// off.
+// Where a step has more impacts of one sphere than there are rounds, some wait for the next: then a cluster
+// is off.
 TEST_CASE("impacts of clusters are those of events", "[impacts]") {
     const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
     struct Bound {
@@ -256,8 +253,9 @@ TEST_CASE("impacts of clusters are those of events", "[impacts]") {
         double median, worst;
         size_t least;  // clusters
     };
-    const Bound bound = GENERATE(Bound{{1, 1, 0}, 120, 1e-4, 1e-2, 95}, Bound{{1, 0.5, 0.5}, 60, 1e-4, 0.3, 95},
-                                 Bound{{1000, 0.8, 0.5}, 240, 1e-3, 0.3, 60});
+    const Bound bound =
+        GENERATE(Bound{{1, 1, 0}, 120, 1e-4, 1e-2, 95}, Bound{{1, 0.5, 0.5}, 60, 1e-4, 0.3, 95},
+                 Bound{{1000, 0.8, 0.5}, 240, 1e-3, 0.3, 60});
     if (path != Path::fused && bound.frames > 120) return;  // half a minute
     const Errors errors = errorsOf(path, bound.judged, bound.frames);
     CAPTURE(name(path), bound.judged.ratio, bound.judged.restitution, errors.median, errors.worst,
@@ -294,8 +292,7 @@ TEST_CASE("impacts of rigid bodies are those of events", "[impacts]") {
     Scene scene = sceneOf(tetrahedron(3 * radius, 1), SolverKind::bdf2Xpbd, items);
     scene.groups[0].contact.emplace().radius = radius;
     setSteps(scene, duration / frames, 1);
-    Simulation simulation =
-        startedWith(scene, velocities, glm::vec2(float(e), float(friction)), path);
+    Simulation simulation = startedWith(scene, velocities, glm::vec2(float(e), float(friction)), path);
     REQUIRE(simulation.plan().groups[0].rigid);
     const std::vector<reference::Sphere> before = statesOf(simulation);
     std::vector<BodyPair> judged;

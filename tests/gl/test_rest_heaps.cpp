@@ -26,12 +26,12 @@ Simulation fusedOf(const Scene& scene) {
     return Simulation(testContext(), compile(scene), {.drawn = false, .path = Path::fused});
 }
 
-// 400 leaves that fall from a column onto a floor, too few iterations for such a heap.
+// 200 leaves that fall from a column onto a floor, too few iterations for such a heap.
 Scene leaves(uint64_t seed) {
     Scene scene = sceneOf(shippedMolecule("leaf"), SolverKind::leapfrog);
     scene.seed = seed;
     Group& group = scene.groups[0];
-    group.count = 400;
+    group.count = 200;
     group.place.kind = Placement::Kind::volume;
     group.place.items.clear();
     group.place.box = {{-0.12, 0.05, -0.12}, {0.12, 1, 0.12}};
@@ -85,7 +85,7 @@ Scene marbles(uint64_t seed) {
 
 }  // namespace
 
-// In the sixth second. Without `rest` leaves creep on; what rests and wakes is to be no livelier.
+// In the fifth second. Without `rest` leaves creep on; what rests and wakes is to be no livelier.
 TEST_CASE("a heap of leaves lies still, and with `rest` is no livelier", "[rest]") {
     if (!canFuse()) return;
     Scene scene = leaves(GENERATE(1, 2, 3));
@@ -93,8 +93,8 @@ TEST_CASE("a heap of leaves lies still, and with `rest` is no livelier", "[rest]
     for (const bool rests : {false, true}) {
         if (rests) scene.contact.rest = 0.02;
         Simulation simulation = fusedOf(scene);
-        run(simulation, 300);
-        squares[rests] = liveliness(simulation, 60);
+        run(simulation, 240);
+        squares[rests] = liveliness(simulation, 30);
     }
     CAPTURE(scene.seed, std::sqrt(squares[0]), std::sqrt(squares[1]));
     CHECK(squares[0] < 16);

@@ -235,11 +235,16 @@ struct SpringEnd {
     vec3 velocity;
     float inverseMass;
 };
+float tableRestLength(int entry, float drawn, float time)
+{
+    float restLength = drawn * scale;
+    return restLength;
+}
 vec3 tableSpringForce(int entry, SpringEnd own, float time)
 {
     vec4 spring = table(entry);
     int other = int(spring.x);
-    float restLength = spring.w * scale;
+    float restLength = tableRestLength(entry, spring.w, time);
     return sprung(own.place - springPlace(other), own.velocity - springVelocity(other), spring.y, spring.z, restLength,
                   own.inverseMass + springInverseMass(other));
 }
@@ -1041,18 +1046,30 @@ bool isFirstLane()
 {
     return row() == 0;
 }
-void loadState(int molecule)
+void shareElements(int first, int begin)
 {
-    int first = firstElement(molecule, STATE_ELEMENTS);
     for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
-        vec4 place = element(oldState, first, e);
-        vec4 velocity = element(oldState, first, POSITION_ELEMENTS + e);
+        vec4 place = element(oldState, first, begin + e);
+        vec4 velocity = element(oldState, first, begin + POSITION_ELEMENTS + e);
         for (int c = 0; c < 4; ++c) {
             sharedNumbers[sharedIndex(PLACES, 4 * e + c)] = place[c];
             sharedNumbers[sharedIndex(VELOCITIES, 4 * e + c)] = velocity[c];
         }
     }
     waitForGroup();
+}
+void loadState(int molecule)
+{
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    if (hasHistory) {
+        shareElements(first, 2 * POSITION_ELEMENTS);
+        {
+            dx[0] = sharedVector(PLACES, vertexOf(0));
+            dv[0] = sharedVector(VELOCITIES, vertexOf(0));
+        }
+        waitForGroup();
+    }
+    shareElements(first, 0);
     {
         x[0] = sharedVector(PLACES, vertexOf(0));
         v[0] = sharedVector(VELOCITIES, vertexOf(0));
@@ -1069,6 +1086,8 @@ void keepState(int molecule)
     {
         x[0] = packedVertex(oldState, first, 0, vertexOf(0));
         v[0] = packedVertex(oldState, first, POSITION_ELEMENTS, vertexOf(0));
+        if (hasHistory) dx[0] = packedVertex(oldState, first, 2 * POSITION_ELEMENTS, vertexOf(0));
+        if (hasHistory) dv[0] = packedVertex(oldState, first, 3 * POSITION_ELEMENTS, vertexOf(0));
     }
 }
 vec4 sharedElement(int array, int e)
@@ -1101,6 +1120,18 @@ void storeState(int molecule)
         }
         storeElement(first, e, place);
         storeElement(first, POSITION_ELEMENTS + e, velocity);
+    }
+    if (hasHistory) {
+        waitForGroup();
+        {
+            share(PLACES, 0, dx[0]);
+            share(VELOCITIES, 0, dv[0]);
+        }
+        waitForGroup();
+        for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
+            storeElement(first, 2 * POSITION_ELEMENTS + e, sharedElement(PLACES, e));
+            storeElement(first, 3 * POSITION_ELEMENTS + e, sharedElement(VELOCITIES, e));
+        }
     }
     if (isMortal && STATE_ELEMENTS % 2 == 1 && isFirstLane()) storeElement(first, STATE_ELEMENTS - 1, vec4(age, span, 0.0, 0.0));
 }
