@@ -101,6 +101,18 @@ TEST_CASE("a heap of leaves lies still, and with `rest` is no livelier", "[rest]
     CHECK(squares[1] <= 1.02 * squares[0]);
 }
 
+// Of 400 leaves, where forces that follow late gave 29 mm/s in the fifth second.
+TEST_CASE("a deep heap of leaves lies still", "[rest]") {
+    if (!canFuse()) return;
+    Scene scene = leaves(1);
+    scene.groups[0].count = 400;
+    Simulation simulation = fusedOf(scene);
+    run(simulation, 240);
+    const double speed = std::sqrt(liveliness(simulation, 30));
+    CAPTURE(speed);
+    CHECK(speed < 10);
+}
+
 // A clock of 15 frames is to run while a marble does not move, and what it sticks to draws it back for a step
 // or three only.
 TEST_CASE("a marble that has stopped comes to rest", "[rest]") {
