@@ -153,11 +153,13 @@ TEST_CASE("models without triangles, or that are none", "[cli]") {
 
 TEST_CASE("a height field's image that is none", "[cli]") {
     const Scratch scratch;
-    const std::string scene =
-        scratch.write("small.scene.json", R"({"format": "shoal-scene-1",
+    const std::string scene = scratch.write(
+        "small.scene.json",
+        R"({"format": "shoal-scene-1",
   "colliders": [{"type": "heightField", "image": "heights.png", "low": [0, 0], "high": [1, 1], "heights": [0, 1]}],
-  "groups": [{"molecule": ")" + sourceFile("molecules/quad.json") +
-                                              R"(", "count": 1, "place": {"on": "volume"}}]})");
+  "groups": [{"molecule": ")" +
+            sourceFile("molecules/quad.json") +
+            R"(", "count": 1, "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]})");
     refusedRun(scratch, scene, "no such file: ");
     scratch.write("heights.png", "no picture");
     refusedRun(scratch, scene, "heights.png: ");
