@@ -15,8 +15,7 @@ namespace shoal {
 //                   holds leapfrog stable at rest
 //   bdf2-newton     where a lane does not hold the molecule otherwise
 //   bdf2-xpbd       otherwise, or
-//   bdf2-corotated  where sweeps strain the springs and it does not (compile/strain.h), or
-//   bdf2-newton     where it does, too
+//   bdf2-corotated  where sweeps strain the springs and it does not (compile/strain.h)
 //
 // The choice is the same on every device. `plan`: its fields and colliders are counted; takes the warnings.
 //

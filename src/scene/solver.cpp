@@ -98,9 +98,8 @@ constexpr Solver table[] = {
      .evaluations = 2,
      .vectors = 5,
      .secondsPerSpring = 0.0653},
-    // BDF2 whose stage is solved: Newton steps with the molecule's own matrix. For large stiff molecules,
-    // long chains
-    // under load and springs whose damping outweighs all else.
+    // BDF2 whose stage is solved, by Newton steps with the molecule's own matrix: large stiff molecules, long
+    // chains under load, and springs whose damping outweighs all else.
     {.kind = SolverKind::bdf2Newton,
      .name = "bdf2-newton",
      .order = 2,

@@ -27,6 +27,23 @@ double untilImpact(const reference::Sphere& a, const reference::Sphere& b) {
     return std::max(gap / (std::sqrt(inside) - along), 0.0);
 }
 
+// Two spheres that touch, at their arms from the middles of their bodies: Newton's restitution along the line
+// of the centres, then Coulomb's friction against what is left of the slip.
+void strike(Body& a, const dvec3& armA, Body& b, const dvec3& armB, double restitution, double friction) {
+    const dvec3 n = glm::normalize(a.center + armA - b.center - armB);
+    const auto slip = [&] { return a.velocityAt(armA) - b.velocityAt(armB); };
+    const auto weight = [&](const dvec3& along) { return a.weight(along, armA) + b.weight(along, armB); };
+    const auto push = [&](const dvec3& impulse) {
+        a.push(impulse, armA);
+        b.push(-impulse, armB);
+    };
+    const double normal = -(1 + restitution) * glm::dot(slip(), n) / weight(n);
+    push(normal * n);
+    const dvec3 across = slip() - glm::dot(slip(), n) * n;
+    const double speed = glm::length(across);
+    if (speed > 0) push(-std::min(speed / weight(across / speed), friction * normal) * (across / speed));
+}
+
 struct Cluster {
     std::vector<reference::Sphere> spheres;
     std::vector<size_t> numbers;  // of the scene's
@@ -52,23 +69,13 @@ struct Cluster {
                 sphere.position += next * sphere.velocity;
             time += next;
             if (first == second) return impacts;
-            strike(spheres[first], spheres[second], restitution, friction);
+            reference::Sphere &one = spheres[first], &other = spheres[second];
+            Body a({&one, 1}), b({&other, 1});
+            strike(a, dvec3(0), b, dvec3(0), restitution, friction);
+            one.velocity = a.velocity;
+            other.velocity = b.velocity;
         }
         return -1;
-    }
-
-  private:
-    // Newton's restitution along the line of the centres, then Coulomb's friction against what is left of
-    // the slip.
-    static void strike(reference::Sphere& a, reference::Sphere& b, double restitution, double friction) {
-        const dvec3 n = glm::normalize(a.position - b.position), u = a.velocity - b.velocity;
-        const double mass = 1 / (a.weight + b.weight), normal = -(1 + restitution) * glm::dot(u, n) * mass;
-        dvec3 impulse = -mass * (u - glm::dot(u, n) * n);
-        const double grip = glm::length(impulse);
-        if (grip > friction * normal) impulse *= friction * normal / grip;
-        impulse += normal * n;
-        a.velocity += a.weight * impulse;
-        b.velocity -= b.weight * impulse;
     }
 };
 
@@ -197,26 +204,10 @@ struct BodyPair {
         }
     }
 
-    // Newton's restitution along the line of the centres, then Coulomb's friction against what is left of
-    // the slip.
     void strike(double restitution, double friction) {
         for (Body* body : {&a.body, &b.body})
             body->center += meets * body->velocity;
-        const dvec3 &armA = a.arms[first], &armB = b.arms[second];
-        const dvec3 n = glm::normalize(a.placeOf(first, 0) - b.placeOf(second, 0));
-        const auto slip = [&] { return a.body.velocityAt(armA) - b.body.velocityAt(armB); };
-        const auto weight = [&](const dvec3& along) {
-            return a.body.weight(along, armA) + b.body.weight(along, armB);
-        };
-        const auto push = [&](const dvec3& impulse) {
-            a.body.push(impulse, armA);
-            b.body.push(-impulse, armB);
-        };
-        const double normal = -(1 + restitution) * glm::dot(slip(), n) / weight(n);
-        push(normal * n);
-        const dvec3 across = slip() - glm::dot(slip(), n) * n;
-        const double speed = glm::length(across);
-        if (speed > 0) push(-std::min(speed / weight(across / speed), friction * normal) * (across / speed));
+        shoal::strike(a.body, a.arms[first], b.body, b.arms[second], restitution, friction);
     }
 
     // Whether other spheres touch so many seconds later.

@@ -90,8 +90,7 @@ void holds(const std::string& name, const HardCase& hardCase) {
     const char* alone = std::getenv("SHOAL_HARD_SOLVER");
     for (size_t i = 0; i < solvers().size(); ++i) {
         // a CPU rasteriser takes minutes for the steps of one that is spread over a molecule's lanes
-        if (alone == nullptr && solvers()[i].spread) continue;
-        if (alone != nullptr && alone != std::string(solvers()[i].name)) continue;
+        if (alone ? alone != std::string(solvers()[i].name) : solvers()[i].spread) continue;
         const Outcome outcome = outcomeOf(solvers()[i], hardCase);
         record(name, i, outcome);
         INFO(name << ", " << solvers()[i].name << ": " << outcome.figure);
