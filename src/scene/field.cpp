@@ -53,7 +53,7 @@ const Description& describe(const OscillatingField*) {
     using F = OscillatingField;
     static const Description description =
         Describe<F>("oscillating",
-                    "The same everywhere, to and fro: velocity · sin(2π · frequency · t + phase).")
+                    "The same everywhere, to and fro. It is velocity · sin(2π · frequency · t + phase).")
             .key("velocity", &F::velocity, {"m/s", "The velocity at the peak."})
             .needed()
             .key("frequency", &F::frequency, {"Hz", "How often it goes to and fro.", Range::atLeast(0)})
@@ -79,8 +79,8 @@ const Description& describe(const GustField*) {
     static const Description description =
         Describe<F>(
             "gust",
-            "Fronts of stronger and weaker wind that travel along a direction: direction · speed · (1 + "
-            "strength · n), with n a noise of mean 0, about within [−1, 1], at ((s − frontSpeed · t) / "
+            "Fronts of stronger and weaker wind that travel along a direction. It is direction · speed · "
+            "(1 + strength · n), with n a noise of mean 0, about within [−1, 1], at ((s − frontSpeed · t) / "
             "length, p / width, q / width); s is along the direction, p and q across it.")
             .direction("direction", &F::direction, {"", "The direction of the wind."})
             .key("speed", &F::speed, {"m/s", "The mean speed."})
@@ -157,7 +157,7 @@ const Description& describe(const ShearField*) {
             needWithin(where.locate("gradient"), field.gradient[i / 3][i % 3], {});
     };
     static const Description description =
-        Describe<F>("shear", "A velocity that grows evenly: velocity + gradient · (x − origin).")
+        Describe<F>("shear", "A velocity that grows evenly. It is velocity + gradient · (x − origin).")
             .byHand("gradient", {.value = Form::Value::number, .lists = {{3, 3}, {3, 3}}},
                     {"three rows of three numbers, 1/s", "The gradient of the velocity."}, readGradient)
             .needed()
@@ -183,8 +183,8 @@ const Description& describe(const VortexField*) {
     static const Description description =
         Describe<F>(
             "vortex",
-            "Turns about an axis, anticlockwise seen from its tip: with r the distance from it and R the "
-            "radius, speed · 2 (r/R) / (1 + (r/R)²) around it and lift / (1 + (r/R)²) along it.")
+            "Turns about an axis, anticlockwise seen from its tip. With r the distance from it and R the "
+            "radius it is speed · 2 (r/R) / (1 + (r/R)²) around it and lift / (1 + (r/R)²) along it.")
             .key("origin", &F::origin, {"m", "A point of the axis."})
             .direction("axis", &F::axis, {"", "The direction of the axis."})
             .key("speed", &F::speed, {"m/s", "The speed at the radius."})
@@ -206,8 +206,8 @@ const Description& describe(const AbcField*) {
     using F = AbcField;
     static const Description description =
         Describe<F>("abc",
-                    "Arnold, Beltrami and Childress: (a sin kz + c cos ky, b sin kx + a cos kz, "
-                    "c sin ky + b cos kx), with k = 2π / wavelength.")
+                    "Spirals that mix all (Arnold, Beltrami and Childress). It is (a sin kz + c cos ky, "
+                    "b sin kx + a cos kz, c sin ky + b cos kx), with k = 2π / wavelength.")
             .key("origin", &F::origin, {"m", "Where the phases are 0."})
             .key("a", &F::a, {"m/s", "The first amplitude."})
             .key("b", &F::b, {"m/s", "The second amplitude."})
@@ -229,8 +229,8 @@ const Description& describe(const TaylorGreenField*) {
     using F = TaylorGreenField;
     static const Description description =
         Describe<F>("taylorGreen",
-                    "Taylor and Green: speed · (cos kx sin ky, −sin kx cos ky, 0) cos kz, with "
-                    "k = 2π / wavelength.")
+                    "Cells that turn against their neighbours (Taylor and Green). It is "
+                    "speed · (cos kx sin ky, −sin kx cos ky, 0) cos kz, with k = 2π / wavelength.")
             .key("origin", &F::origin, {"m", "Where the phases are 0."})
             .key("speed", &F::speed, {"m/s", "The largest speed."})
             .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});

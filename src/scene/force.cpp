@@ -73,7 +73,7 @@ const Description& describe(const VortexLineForce*) {
     static const Description description =
         Describe<VortexLineForce>(
             "vortexLine",
-            "Pulls towards a line and around it [Latta 2004]: both grow as d / core up to the core, "
+            "Pulls towards a line and around it [Latta 2004]. Both grow as d / core up to the core, "
             "and fall as core / d beyond it.")
             .key("position", &VortexLineForce::position, {"m", "A point of the line."})
             .direction("axis", &VortexLineForce::axis, {"", "The direction of the line."})
@@ -116,7 +116,8 @@ const Description& describe(const ThrustForce*) {
     static const Description description =
         Describe<ThrustForce>(
             "thrust",
-            "What propels itself [Latta 2004]: dv/dt = rate · v while the speed is below the limit, which "
+            "Speeds up what moves, as if it propelled itself [Latta 2004]. It is rate · v while the speed is "
+            "below the limit, which "
             "it does not pass. A rate below 0 damps at any speed. What is at rest stays so.")
             .key("rate", &ThrustForce::rate,
                  {"1/s", "The rate of growth of the speed; a negative one damps."})

@@ -211,13 +211,21 @@ bool toggle(const char* label, bool on) {
     return pressed;
 }
 
+// Where the first sentence ends, if another one follows it in the line.
+static size_t endOfSentence(const std::string& words) {
+    const size_t end = words.find(". ");
+    return end == std::string::npos ? end : end + 1;
+}
+
 void tip(const std::string& words) {
     constexpr float widest = 40;  // letters
     if (words.empty() || ImGui::IsItemActive() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(widest * ImGui::CalcTextSize("n").x);
-    ImGui::TextUnformatted(inLetters(words).c_str());
+    const size_t rest = ImGui::GetIO().KeyShift ? std::string::npos : endOfSentence(words);
+    ImGui::TextUnformatted(inLetters(words.substr(0, rest)).c_str());
+    if (rest < words.size()) ImGui::TextDisabled("Shift shows more.");
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }

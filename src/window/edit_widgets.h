@@ -58,7 +58,7 @@ bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles);
 void heading(const char* words);
 bool toggle(const char* label, bool on);  // a button that looks pressed
 // Shows a plain sentence, in lines of some 40 letters, while the pointer is on what was drawn last, whether
-// or not that can be used now.
+// or not that can be used now; with Shift held also the sentences behind it, such as a formula.
 void tip(const std::string& words);
 std::string plain(double number);             // four digits
 std::string inWords(const std::string& key);  // "separationRadius" as "separation radius"

@@ -208,7 +208,9 @@ const Description& describe(const Group*) {
             .key("school", &G::school, {"", "How they steer by one another."})
             .byHand("drag", {.value = Form::Value::numberOrKeys, .range = Range::atLeast(0), .usual = 0},
                     {"number of at least 0, 1/s; or an object",
-                     "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
+                     "How fast the fluid takes it along, as Stokes drag. The velocity v grows by drag · (u − "
+                     "v) a "
+                     "second, u being the fluid's."},
                     readDrag)
             .holdsKeys(describe(static_cast<const Drag*>(nullptr)))
             .key("velocity", &G::velocity, {"m/s", "The velocity at the start."})
