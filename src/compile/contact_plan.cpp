@@ -156,8 +156,9 @@ double ContactPlan::carried(int iterations) {
     return std::max(2.5 * n / (1 - double(momentum(1, iterations, true))), 0.25 * n * n);
 }
 
-int ContactPlan::iterationsFor(double massRatio) {
-    return std::min(int(std::ceil(8 * std::sqrt(massRatio))), ContactSettings::mostIterations);
+int ContactPlan::iterationsFor(double massRatio, int levels) {
+    const double needed = std::max(8 * std::sqrt(massRatio), 1.5 * levels);
+    return int(std::min(std::ceil(needed), double(ContactSettings::mostIterations)));
 }
 
 ContactPlan::Masses ContactPlan::masses() const {
@@ -209,7 +210,9 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     const ContactPlan::Masses masses = out.masses();
     checkMasses(scene, groups, masses);
     out.unlikeMasses = masses.ratio > likeMasses;
-    if (out.settings.iterations == 0) out.settings.iterations = ContactPlan::iterationsFor(masses.ratio);
+    out.tower = tallestTower(scene, groups, out.groups);
+    if (out.settings.iterations == 0)
+        out.settings.iterations = ContactPlan::iterationsFor(masses.ratio, out.tower.levels);
     // a little more, so that rounding loses nothing
     out.reach = (1 + 1e-5) * std::max(2 * ContactPlan::near * out.largestRadius,
                                       2 * out.largestRadius +

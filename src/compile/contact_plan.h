@@ -15,6 +15,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/tower.h"
 #include "molecule/gap.h"
 #include "scene/scene.h"
 
@@ -67,6 +68,7 @@ struct ContactPlan {
     int listLength = 24;  // spheres that one may touch, where there is room for them
     int steps = 1;        // of a frame
     ContactSettings settings;
+    Tower tower;
     bool unlikeMasses = false;  // of what contact moves: more than ten times apart
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
@@ -87,8 +89,8 @@ struct ContactPlan {
     // what lies on it sinks in. Measured: docs/contact-figures.md.
     static double carried(int iterations);
     // So many let a tower of twenty rest whose marbles are light and heavy in turn, one `massRatio` times the
-    // other, and heaps of such.
-    static int iterationsFor(double massRatio);
+    // other, and heaps of such; and a tower of solids of so many levels.
+    static int iterationsFor(double massRatio, int levels);
     // The lightest and the heaviest of what contact moves, and how many times as heavy it is; null where all
     // is held.
     struct Masses {

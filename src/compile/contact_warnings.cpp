@@ -122,7 +122,7 @@ void warnOfMasses(const Scene& scene, Plan& plan) {
                     ? concat(", since ", most, " \"iterations\", which are the most, carry ",
                              std::floor(ContactPlan::carried(most)), " times the mass")
                     : concat(" with less than ", needed, " \"iterations\", and in a tower with less than ",
-                             ContactPlan::iterationsFor(masses.ratio),
+                             ContactPlan::iterationsFor(masses.ratio, 0),
                              ", which a scene has that does not say how many"))});
 }
 
@@ -148,6 +148,28 @@ void warnOfSoftSolids(const Scene& scene, Plan& plan) {
     }
 }
 
+// Warns of towers that lean further and further: of contact steps that are long for the time in which a level
+// would tip over, and of fewer iterations than the load of all levels takes.
+void warnOfTowers(const Scene& scene, Plan& plan) {
+    const Tower& tower = plan.contact.tower;
+    if (!plan.contact.remembers() || tower.levels <= Tower::alwaysStands) return;
+    // of levels times g / height of a level times the square of the contact step (docs/contact-figures.md)
+    constexpr double most = 0.0065;
+    const double needed =
+        std::sqrt(tower.levels * glm::length(scene.gravity) / tower.height / most) / plan.frameRate;
+    const int iterations = ContactPlan::iterationsFor(1, tower.levels);
+    std::string words;
+    if (needed > plan.contact.steps) words = stepsThatHold(scene, plan, needed);
+    if (plan.contact.settings.iterations < iterations)
+        words += concat(words.empty() ? "" : ", with ", "\"iterations\" of at least ", iterations,
+                        " instead of ", plan.contact.settings.iterations, words.empty() ? " hold it" : "");
+    if (words.empty()) return;
+    plan.warnings.push_back(
+        {scene.groups[plan.groups[tower.group].index].contact->location,
+         concat("a tower of ", tower.levels, " molecules on \"", plan.groups[tower.group].name,
+                "\" leans more and more until it falls: ", words)});
+}
+
 // What falls at the start: how far, on how many layers of spheres.
 struct Fall {
     double height = 0;  // m
@@ -158,10 +180,8 @@ struct Fall {
 };
 
 Fall fallOf(const Scene& scene, const Plan& plan) {
-    const glm::dvec3 up = -glm::normalize(scene.gravity);
-    const glm::dvec3 across =
-        glm::normalize(glm::cross(up, std::abs(up.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
-    const glm::dmat3 axes(across, up, glm::cross(across, up));
+    const glm::dmat3 axes = uprightAxes(scene.gravity);
+    const glm::dvec3 up = axes[1];
     Fall out{.radius = 1e300, .drag = 1e300};
     glm::dvec3 low(1e300), high(-1e300);
     double volume = 0;  // m^3, of spheres
@@ -214,6 +234,7 @@ void warnOfContact(const Scene& scene, Plan& plan) {
     warnOfSpheres(scene, plan);
     warnOfMasses(scene, plan);
     warnOfSoftSolids(scene, plan);
+    warnOfTowers(scene, plan);
     warnOfFalls(scene, plan);
     warnOfCrowds(scene, plan);
 }

@@ -64,7 +64,7 @@ const Description& describe(const ContactSettings*) {
                 {"",
                  "The most iterations of the response where several touch at once; without it 8, times the "
                  "square root of how many times as heavy as the lightest the heaviest is that contact moves, "
-                 "256 at most.",
+                 "or 1.5 times the levels of the tallest tower of solids, 256 at most.",
                  Range::between(1, S::mostIterations)})
             .unlessZero()
             .key(

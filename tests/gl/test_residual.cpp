@@ -146,7 +146,7 @@ TEST_CASE("a tower of light and heavy marbles rests", "[molecule contact][long]"
         int iterations;  // at most
         double taken;    // at rest, in the mean of frames, at most
     };
-    const int usual = ContactPlan::iterationsFor(1);
+    const int usual = ContactPlan::iterationsFor(1, 0);
     const Tower each =
         GENERATE_COPY(Tower{20, 1, usual, 4}, Tower{2, 100, usual, 7}, Tower{2, 1000, 64, 20},
                       Tower{6, 1000, 128, 32}, Tower{20, 30, 64, 16}, Tower{20, 1000, 256, 256});

@@ -26,11 +26,11 @@ Molecule cube(double stiffness) {
     return out;
 }
 
-// Five of them, let fall by a centimetre each.
-Scene stack(double stiffness, SolverKind solver, int substeps) {
+// So many of them, let fall by a centimetre, with a gap between two.
+Scene stack(double stiffness, SolverKind solver, int substeps, int levels = 5, double gap = 0.01) {
     std::vector<Item> items;
-    for (int i = 0; i < 5; ++i)
-        items.push_back(at({0, 0.09 + 0.17 * i, 0}));
+    for (int i = 0; i < levels; ++i)
+        items.push_back(at({0, 0.09 + (0.16 + gap) * i, 0}));
     Scene scene = sceneOf(cube(stiffness), solver, items);
     Group& group = scene.groups[0];
     group.contact.emplace().radius = 0.03;
@@ -52,6 +52,13 @@ int stepsToldOf(const Plan& plan) {
             return std::atoi(warning.message.c_str() + place + 12);
     }
     return 0;
+}
+
+std::string warningsOf(const Plan& plan) {
+    std::string out;
+    for (const Warning& warning : plan.warnings)
+        out += warning.message + "\n";
+    return out;
 }
 
 // m/s, of any vertex in the fifth second.
@@ -89,6 +96,27 @@ TEST_CASE("a stack of soft cubes rests with the contact steps that a warning nam
     if (scene.contact.steps) scene.contact.steps = told;
     CHECK(stepsToldOf(compile(scene)) == 0);
     CHECK(fastestOf(scene) < 1e-3);
+}
+
+TEST_CASE("a tower of twenty cubes rests with what a warning names", "[molecule contact]") {
+    if (!testContext().info().computeShaders) return;  // a minute
+    using Catch::Contains;
+    const std::string tower = "a tower of 20 molecules",
+                      steps = "falls: \"substeps\" of at least 8 instead of 4";
+    Scene scene = stack(1e6, SolverKind::bdf2Xpbd, 4, 20, 0);
+    CHECK_THAT(warningsOf(compile(scene)), Contains(tower) && Contains(steps));
+    setSteps(scene, 1 / 60.0, 8);
+    scene.contact.iterations = 8;
+    CHECK_THAT(warningsOf(compile(scene)),
+               Contains(tower) && Contains("falls: \"iterations\" of at least 30 instead of 8 hold it"));
+    CHECK(fastestOf(scene) > 1e-3);
+    scene.contact.iterations = 0;
+    CHECK(compile(scene).contact.settings.iterations == 30);
+    CHECK(warningsOf(compile(scene)).empty());
+    CHECK(fastestOf(scene) < 5e-4);
+    CHECK(fastestOf(stack(40000, SolverKind::bdf2Xpbd, 16, 20, 0)) < 5e-4);
+    // far apart they do not stand on one another
+    CHECK_THAT(warningsOf(compile(stack(1e6, SolverKind::bdf2Xpbd, 4, 20, 0.2))), !Contains(tower));
 }
 
 TEST_CASE("rigid cubes, sheets and what floats are not warned of as soft", "[molecule contact]") {
