@@ -1,6 +1,7 @@
 #include "window/scene_document.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "core/file.h"
@@ -79,9 +80,10 @@ void SceneDocument::goForth() {
 }
 
 void SceneDocument::save() {
-    if (readFile(file_) != saved_.text)
+    const bool gone = !std::filesystem::exists(file_);
+    if (!gone && readFile(file_) != saved_.text)
         throw Error(Location{file_}, "has changed since it was read: nothing was saved");
-    if (unsaved()) writeFile(file_, texts_.kept.text);
+    if (gone || unsaved()) writeFile(file_, texts_.kept.text);
     saved_ = texts_.kept;
 }
 

@@ -48,8 +48,8 @@ class SceneDocument {
     void goBack();
     void goForth();
 
-    // Writes the kept text into the file. Error: the file has changed since it was read, or cannot be
-    // written.
+    // Writes the kept text into the file, anew where it is gone. Error: the file has changed since it was
+    // read, or cannot be written.
     void save();
     // The file says `onDisk`, and the texts become `next`: no step leads back beyond it.
     void reread(const std::string& onDisk, Texts next);

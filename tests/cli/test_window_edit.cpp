@@ -251,6 +251,27 @@ TEST_CASE("a file that changes on disk keeps what was dragged in the window, or 
     CHECK(rate(after) < rate(between));
 }
 
+TEST_CASE("a file that becomes garbage or goes away while it is edited takes nothing from the window",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    // saving writes over no garbage, and anew what is gone; no undo leads back beyond what came from disk
+    const Edited edited =
+        edit("garbage", std::string(places) +
+                            "rate 850; echo '{ garbage' > $file; says 'not reloaded:'; settle\n"
+                            "save; says 'not saved:'; keep; mv $file $file.hidden; settle; save; settle\n"
+                            "sed 's/-9.810/-1.62/' $file > $file.new; mv $file.new $file; says '^reloaded:'\n"
+                            "settle; control z; settle; save; key Escape\n");
+    INFO(edited.outcome.out << edited.outcome.err << edited.after);
+    CHECK(edited.between == "{ garbage\n");
+    const std::vector<std::string> messages = edited.outcome.messages();
+    REQUIRE(messages.size() >= 2);
+    CHECK_THAT(messages[0], Catch::Contains("not reloaded") && Catch::Contains(":1:3: expected a key"));
+    CHECK_THAT(messages[1], Catch::Contains("not saved") && Catch::Contains("has changed since it was read"));
+    const JsonValue after = parseJson(edited.after, "after");
+    CHECK(member(after, "gravity").items[1].number == -1.62);
+    CHECK(member(emittersIn(after).items[0], "rate").number > 200);
+}
+
 TEST_CASE("a question goes when the file agrees again, and the window listens", "[.window]") {
     if (!hasXdotool()) return;
     const Edited edited = edit("agreed", std::string(places) +
