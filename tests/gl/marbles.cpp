@@ -5,11 +5,6 @@
 
 namespace shoal::test {
 
-std::vector<Path> pathsHere() {
-    if (testContext().info().computeShaders) return {Path::fused, Path::fragments, Path::pingPong};
-    return {Path::fragments, Path::pingPong};
-}
-
 Simulation simulationOn(Path path, Plan plan, bool drawn) {
     return Simulation(testContext(), std::move(plan), {.drawn = drawn, .path = path});
 }

@@ -14,13 +14,12 @@ namespace shoal::test {
 using Pairs = std::vector<std::pair<int, int>>;
 
 // Those that the context can run.
-std::vector<Path> pathsHere();
 Simulation simulationOn(Path path, Plan plan, bool drawn = false);
 // Points of some masses, each with contact of one radius, in no gravity.
 Scene marbles(const std::vector<glm::dvec3>& positions, double radius, double mass = 1);
 // With these velocities, group by group, and materials for all pairs of groups.
 Simulation startedWith(const Scene& scene, const std::vector<glm::dvec3>& velocities, glm::vec2 material,
-                       Path path = pathsHere().front());
+                       Path path = pathHere());
 // All spheres of the plan's start state, in the order of their numbers.
 std::vector<reference::Sphere> spheresOf(const Plan& plan);
 // Returns the pairs of `some` that `all` lacks.

@@ -94,6 +94,12 @@ inline std::vector<SolverKind> explicitSolvers() {
     return out;
 }
 
+// The path that is asked for, else compute shaders where there are some, else fragments.
+inline Path pathHere() {
+    if (testPath() != Path::automatic) return testPath();
+    return testContext().info().computeShaders ? Path::fused : Path::fragments;
+}
+
 // Whether the tested path runs it.
 inline bool runsHere(const Solver& solver) {
     if (testPath() == Path::pingPong) return !solver.implicit;

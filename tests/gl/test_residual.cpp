@@ -29,7 +29,7 @@ Scene tower(int count, double ratio) {
     return scene;
 }
 
-Simulation started(const Scene& scene, Path path = pathsHere().front()) {
+Simulation started(const Scene& scene, Path path = pathHere()) {
     return startedWith(scene, std::vector<dvec3>(scene.groups.size(), dvec3(0)), {0, 0.5}, path);
 }
 
@@ -82,7 +82,7 @@ Rest restOf(const Simulation& simulation) {
 }  // namespace
 
 TEST_CASE("iterations end where the residual is small, and not before", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const Path path = pathHere();
     const int most = GENERATE(1, 9, 16);
     Scene scene = tower(4, 1);
     scene.contact.iterations = most;
@@ -111,7 +111,7 @@ TEST_CASE("iterations end where the residual is small, and not before", "[molecu
 }
 
 TEST_CASE("iterations in fragments end where those of compute shaders do", "[molecule contact][agreement]") {
-    if (pathsHere().front() != Path::fused) return;
+    if (pathHere() != Path::fused) return;
     const Scene scene = tower(4, 3);
     Simulation compute = started(scene, Path::fused), fragments = started(scene, Path::fragments);
     for (int i = 0; i < 60; ++i) {
@@ -150,7 +150,7 @@ TEST_CASE("a tower of light and heavy marbles rests", "[molecule contact][long]"
     const Tower each =
         GENERATE_COPY(Tower{20, 1, usual, 4}, Tower{2, 100, usual, 7}, Tower{2, 1000, 64, 20},
                       Tower{6, 1000, 128, 32}, Tower{20, 30, 64, 16}, Tower{20, 1000, 256, 256});
-    if (each.iterations > usual && pathsHere().front() != Path::fused) return;  // half a minute
+    if (each.iterations > usual && pathHere() != Path::fused) return;  // half a minute
     Scene scene = tower(each.count, each.ratio);
     scene.contact.iterations = each.iterations;
     Simulation simulation = started(scene);
@@ -170,7 +170,7 @@ TEST_CASE("a tower of light and heavy marbles rests", "[molecule contact][long]"
 // What contacts remember one by one is not in balance on a light marble between heavy ones: it must not act
 // on it as a force, or the heap moves at centimetres a second. As many iterations as the masses take.
 TEST_CASE("a heap of light and heavy marbles lies still", "[molecule contact]") {
-    const Path path = GENERATE(Catch::Generators::from_range(pathsHere()));
+    const Path path = pathHere();
     if (path == Path::pingPong) return;  // its iterations know no colliders
     const double ratio = GENERATE(1, 30, 100);
     Simulation simulation = startedWith(heap(ratio), std::vector<dvec3>(64, dvec3(0)), {0, 0.5}, path);
