@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
 #include "compile/contact_plan.h"
@@ -76,19 +77,18 @@ Tower tallestTower(const Scene& scene, const std::vector<GroupPlan>& groups,
     for (const Block& block : blocks)
         cell = std::max({cell, block.width / 4, block.radius});
     // by the cell of the middle of their tops
-    std::unordered_map<uint64_t, std::vector<size_t>> tops;
-    const auto key = [&](const Block& block, double top, const glm::ivec3& beside) {
-        const glm::dvec3 place = glm::floor(glm::dvec3(block.middle.x, top, block.middle.y) / cell);
-        return uint64_t(int64_t(place.x) + beside.x) * 73856093u ^
-               uint64_t(int64_t(place.y) + beside.y) * 19349663u ^
-               uint64_t(int64_t(place.z) + beside.z) * 83492791u;
+    std::unordered_map<size_t, std::vector<size_t>> tops;
+    const auto key = [&](const Block& block, double top, const glm::dvec3& beside) {
+        const glm::dvec3 place = glm::floor(glm::dvec3(block.middle.x, top, block.middle.y) / cell) + beside;
+        const std::hash<double> hash;
+        return hash(place.x) ^ (hash(place.y) * 31) ^ (hash(place.z) * 1009);
     };
     Tower out;
     for (size_t b = 0; b < blocks.size(); ++b) {
         Block& block = blocks[b];
         block.bottom = block.low, block.foot = block.group;
         for (int i = 0; i < 27; ++i) {
-            const auto found = tops.find(key(block, block.low, glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1));
+            const auto found = tops.find(key(block, block.low, glm::dvec3(i % 3, i / 3 % 3, i / 9) - 1.0));
             if (found == tops.end()) continue;
             for (const size_t below : found->second) {
                 const Block& lower = blocks[below];
@@ -96,7 +96,7 @@ Tower tallestTower(const Scene& scene, const std::vector<GroupPlan>& groups,
                 block.level = lower.level + 1, block.bottom = lower.bottom, block.foot = lower.foot;
             }
         }
-        tops[key(block, block.high, glm::ivec3(0))].push_back(b);
+        tops[key(block, block.high, glm::dvec3(0))].push_back(b);
         if (block.level > std::max(out.levels, 1))
             out = {block.level, (block.high - block.bottom) / block.level, block.foot};
     }

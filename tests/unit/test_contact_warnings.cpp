@@ -31,7 +31,44 @@ std::string warningsOfPile(int layers, int substeps, double drag = 0) {
     return out;
 }
 
+// Cubes of 10 cm with spheres of 3 cm, `gap` above one another along an axis, `aside` further at each.
+Tower towerOf(int levels, double gap, double aside = 0, int axis = 1, double far = 0) {
+    Scene scene;
+    scene.gravity[axis] = -9.81;
+    Group& group = scene.groups.emplace_back();
+    group.name = "cubes";
+    for (int i = 0; i < 8; ++i)
+        group.molecule.vertices.push_back(
+            {.position = 0.1 * (glm::dvec3(i & 1, i >> 1 & 1, i >> 2 & 1) - 0.5), .mass = 0.0125});
+    for (int a = 0; a < 8; ++a)
+        for (int b = a + 1; b < 8; ++b)
+            group.molecule.springs.push_back({a, b, 1e5, 2, {}, {}});
+    group.place.kind = Placement::Kind::list;
+    group.place.turn = Placement::Turn::none;
+    for (int i = 0; i < levels; ++i) {
+        Placement::Item& item = group.place.items.emplace_back();
+        item.position = glm::dvec3(far);
+        item.position[axis] += 0.08 + (0.16 + gap) * i;
+        item.position[(axis + 1) % 3] += aside * i;
+    }
+    group.count = levels;
+    group.contact.emplace().radius = 0.03;
+    return compile(scene).contact.tower;
+}
+
 }  // namespace
+
+TEST_CASE("the levels of a tower are counted, and only where molecules stand on one another", "[warnings]") {
+    const int axis = GENERATE(0, 1, 2);
+    const double far = GENERATE(0.0, 1e6);
+    CAPTURE(axis, far);
+    CHECK(towerOf(7, 0, 0, axis, far).levels == 7);
+    CHECK(std::abs(towerOf(7, 0, 0, axis, far).height - 0.16) < 1e-3);
+    CHECK(towerOf(7, 0.02, 0.03, axis, far).levels == 7);  // leans, and is let fall by 2 cm a level
+    CHECK(towerOf(7, 0.04, 0, axis, far).levels == 0);     // further apart than a radius
+    CHECK(towerOf(7, 0, 0.05, axis, far).levels == 0);     // beside one another
+    CHECK(towerOf(1, 0, 0, axis, far).levels == 0);
+}
 
 // Of 160 layers the lowest end in one another with 4 contact steps, and with 12 hardly
 // (docs/contact-figures.md).
