@@ -22,7 +22,8 @@ static fs::path ownFile() {
 
 std::string shaderRoot() {
     std::error_code code;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", code);
+    fs::path executable = fs::read_symlink("/proc/self/exe", code);
+    if (executable.empty()) executable = ownFile();  // a root folder without /proc
     std::vector<fs::path> roots;
     if (const char* variable = std::getenv("SHOAL_DATA")) roots.emplace_back(variable);
     roots.push_back(executable.parent_path().parent_path() / SHOAL_DATA_DIR);
