@@ -20,6 +20,9 @@ float asMemory(uint counted)
     return uintBitsToFloat(counted | RESPONDS);
 }
 
+// The row of what rests (contact/search/responding.glsl).
+const int NO_ROW = -1;
+
 // With a number that is never negative, as bits: of a sphere's 1/mass, that its molecule has been born since the last step, and
 // remembers nothing; of its radius, that its molecule rests; of a collider's friction, that it has restitution.
 const uint FLAG = 0x80000000u;

@@ -20,24 +20,20 @@ const bool inTextures = false;
 #define putAllEarlierColliderImpulses(i, values)
 #define earlierColliderImpulsesAt(i, k) vec4(0)
 uniform int listStride;
-layout(std430) buffer Impulses { vec4 impulsesBuffer[]; };
-#define putImpulses(i, e, value) impulsesBuffer[(e) * listStride + (i)] = (value)
+uniform samplerBuffer impulses;
 vec4 impulsesAt(int i, int e)
 {
-    return impulsesBuffer[(e) * listStride + (i)];
+    return texelFetch(impulses, (e) * listStride + (i));
 }
-layout(std430) buffer EarlierImpulses { vec4 earlierImpulsesBuffer[]; };
-#define putEarlierImpulses(i, e, value) earlierImpulsesBuffer[(e) * listStride + (i)] = (value)
+uniform samplerBuffer earlierImpulses;
 vec4 earlierImpulsesAt(int i, int e)
 {
-    return earlierImpulsesBuffer[(e) * listStride + (i)];
+    return texelFetch(earlierImpulses, (e) * listStride + (i));
 }
-layout(std430) buffer EarlierTotals { vec4 earlierTotalsBuffer[]; };
+layout(std430) writeonly buffer EarlierImpulses { vec4 earlierImpulsesBuffer[]; };
+#define putEarlierImpulses(i, e, value) earlierImpulsesBuffer[(e) * listStride + (i)] = (value)
+layout(std430) writeonly buffer EarlierTotals { vec4 earlierTotalsBuffer[]; };
 #define putEarlierTotals(i, k, value) earlierTotalsBuffer[2 * (i) + (k)] = (value)
-vec4 earlierTotalsAt(int i, int k)
-{
-    return earlierTotalsBuffer[2 * (i) + (k)];
-}
 void putAllEarlierTotals(int i, vec4 values[2])
 {
     for (int k = 0; k < 2; ++k) putEarlierTotals(i, k, values[k]);
@@ -72,6 +68,7 @@ float asMemory(uint counted)
 {
     return uintBitsToFloat(counted | RESPONDS);
 }
+const int NO_ROW = -1;
 const uint FLAG = 0x80000000u;
 uint withFlag(float number, bool isSet)
 {
@@ -100,16 +97,20 @@ uint countsAt(int i)
     return texelFetch(counts, i).x;
 }
 uniform usamplerBuffer responding;
-uint respondingAt(int i)
+uint respondingAt(int i, int k)
 {
-    return texelFetch(responding, i).x;
+    return texelFetch(responding, 2 * (i) + (k)).x;
 }
 int ownSlot(int count)
 {
     int number = ownNumber();
-    if (!inTextures) return number < int(respondingAt(0)) ? int(respondingAt(1 + number)) : -1;
+    if (!inTextures) return number < int(respondingAt(0, 0)) ? int(respondingAt(1 + number, 0)) : -1;
     if (number >= count || countsAt(number) == 0u) discardTexel();
     return number;
+}
+int rowOf(int slot)
+{
+    return inTextures ? slot : int(respondingAt(1 + slot, 1));
 }
 int ownRow(int slot)
 {
@@ -469,7 +470,7 @@ Sphere sphereAt(int slot)
 {
     uvec4 place = placesAt(slot);
     uvec4 motion = motionAt(slot);
-    bool stays = rests(slot);
+    bool stays = RESTS && rested(slot) && rowOf(slot) == NO_ROW;
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
                   radiusAt(slot), hasFlag(motion.w), stays);
 }
@@ -550,7 +551,6 @@ Pair pairOf(int slot, int other)
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
     float reach = own.radius + pair.sphere.radius;
     pair.contact = pairContact(parted(pair.apart, reach, slot, other), own.velocity - pair.sphere.velocity, reach);
-    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
     return pair;
@@ -587,7 +587,7 @@ void leaveAsCome(inout Pair pair, vec3 anchor)
 Pair pairAs(int slot, int other, ContactImpulse begun)
 {
     Pair pair = pairOf(slot, other);
-    pair.meets = pair.meets && begun.kind != NO_PART;
+    pair.meets = begun.kind != NO_PART;
     leaveAsCome(pair, begun.anchor);
     return pair;
 }
@@ -595,6 +595,11 @@ uniform samplerBuffer totals;
 vec4 totalsAt(int i, int k)
 {
     return texelFetch(totals, 2 * (i) + (k));
+}
+uniform samplerBuffer earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, 2 * (i) + (k));
 }
 uniform samplerBuffer velocities;
 vec4 velocitiesAt(int i, int k)
@@ -642,6 +647,16 @@ vec4 weightsAt(int i, int e)
 {
     return texelFetch(weights, (e) * listStride + (i));
 }
+uniform usamplerBuffer partnerRows;
+uint partnerRowsAt(int i, int e)
+{
+    return texelFetch(partnerRows, (e) * listStride + (i)).x;
+}
+uniform samplerBuffer rowSpheres;
+vec4 rowSpheresAt(int i, int k)
+{
+    return texelFetch(rowSpheres, 2 * (i) + (k));
+}
 Constraint constraintOf(int slot, int e)
 {
     vec4 normal = normalsAt(ownRow(slot), e);
@@ -658,21 +673,34 @@ vec3 ahead(vec3 latest, vec3 before)
 {
     return momentum == 0.0 ? latest : latest + (latest - before) * momentum;
 }
-Moved movedAt(int slot)
+int rowOfOther(int slot, int e)
+{
+    return int(partnerRowsAt(ownRow(slot), e));
+}
+void loadOwnSphere(int slot)
+{
+    vec4 first = rowSpheresAt(ownRow(slot), 0);
+    own.velocity = first.xyz;
+    own.weight = first.w;
+    own.radius = rowSpheresAt(ownRow(slot), 1).w;
+    own.rests = own.weight == 0.0;
+    ownBody = bodyOf(slot, own);
+}
+Moved movedAt(int row)
 {
     if (inTextures && !SPREADS) {
-        Sphere sphere = sphereAt(slot);
-        return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
-                     ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+        Sphere sphere = sphereAt(row);
+        return Moved(sphere.velocity + ahead(totalsAt(row, 0).xyz, earlierTotalsAt(row, 0).xyz) * sphere.weight,
+                     ahead(totalsAt(row, 1).xyz, earlierTotalsAt(row, 1).xyz) * sphere.weight);
     }
-    if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
-    return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
+    if (row == NO_ROW) return Moved(vec3(0.0), vec3(0.0));
+    return Moved(velocitiesAt(row, 0).xyz, velocitiesAt(row, 1).xyz);
 }
 void loadOwn(int slot)
 {
-    loadSphere(slot);
+    loadOwnSphere(slot);
     ownCount = effectiveCountOf(slot, own);
-    ownMoved = movedAt(slot);
+    ownMoved = movedAt(ownRow(slot));
 }
 Constraint constrainCollider(NearCollider near)
 {
@@ -696,10 +724,10 @@ ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
     float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
     return ContactImpulse(taken, max(apart, 0.0), taken == wanted, vec3(0.0), 0.0, PERSISTENT);
 }
-vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
+vec4 solve(int row, Constraint asked, vec4 push, vec4 before)
 {
     if (asked.friction < 0.0) return vec4(0.0);
-    return firstPart(solved(asked, movedAt(other), push, before));
+    return firstPart(solved(asked, movedAt(row), push, before));
 }
 uniform samplerBuffer anchors;
 vec4 anchorsAt(int i, int e)
@@ -754,7 +782,7 @@ vec4 solveEntry(int slot, int e, Constraint asked)
     if (inTextures) return impulsesAt(row, e);
     vec4 push = impulsesAt(row, e);
     vec4 before = earlierImpulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    vec4 next = solve(rowOfOther(slot, e), asked, push, before);
     addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);
     return next;
@@ -773,8 +801,9 @@ void main()
     int slot = ownSlot(count);
     if (slot < 0) return;
     loadOwn(slot);
+    int row = ownRow(slot);
     int listed = listedOf(slot);
-    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
+    vec3 impulse = -(inTextures ? warmStartAt(row) : rowSpheresAt(row, 1)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         Constraint asked = constraintOf(slot, e);
@@ -783,27 +812,27 @@ void main()
         shift += asked.normal * abs(push.w);
     }
     if (COLLIDERS) {
-        int row = memoryRow(slot);
+        int memory = memoryRow(slot);
         vec4 next[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
             NearCollider near = colliderNear(sphereOf(slot), k);
             if (!isNear(near) || own.weight <= 0.0) break;
-            vec4 push = colliderImpulsesAt(row, k);
-            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
+            vec4 push = colliderImpulsesAt(memory, k);
+            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(memory, k));
             impulse += next[k].xyz;
             shift += near.normal * next[k].w;
-            putEarlierColliderImpulses(row, k, push);
-            putColliderImpulses(row, k, next[k]);
+            putEarlierColliderImpulses(memory, k, push);
+            putColliderImpulses(memory, k, next[k]);
         }
         putAllNextColliderImpulses(slot, next);
     }
-    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
-    putAllNextTotals(slot, next);
-    putAllEarlierTotals(slot, next);
-    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
-    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
-    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
-    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(row, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(row, next);
+    putAllEarlierTotals(row, next);
+    vec3 further = impulse + (impulse - totalsAt(row, 0).xyz) * nextMomentum;
+    putNextVelocities(row, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(row, 1).xyz) * nextMomentum;
+    putNextVelocities(row, 1, vec4(further * own.weight, 0.0));
     endBatch();
 }

@@ -34,8 +34,6 @@ vec4 impulsesAt(int i, int e)
 {
     return texelFetch(impulses, ivec3(texelOf(i), e), 0);
 }
-#define putImpulses(i, e, value)
-#define putAllImpulses(i, values)
 uniform sampler2DArray earlierImpulses;
 vec4 earlierImpulsesAt(int i, int e)
 {
@@ -43,11 +41,6 @@ vec4 earlierImpulsesAt(int i, int e)
 }
 #define putEarlierImpulses(i, e, value)
 #define putAllEarlierImpulses(i, values)
-uniform sampler2DArray earlierTotals;
-vec4 earlierTotalsAt(int i, int k)
-{
-    return texelFetch(earlierTotals, ivec3(texelOf(i), k), 0);
-}
 #define putEarlierTotals(i, k, value)
 #define putAllEarlierTotals(i, values)
 uniform float momentum;
@@ -78,6 +71,7 @@ float asMemory(uint counted)
 {
     return uintBitsToFloat(counted | RESPONDS);
 }
+const int NO_ROW = -1;
 const uint FLAG = 0x80000000u;
 uint withFlag(float number, bool isSet)
 {
@@ -100,7 +94,7 @@ bool marksWoken(uint mark)
 {
     return mark >= STRUCK;
 }
-#define respondingAt(i) uint(0)
+#define respondingAt(i, k) uint(0)
 uniform usampler2D counts;
 uint countsAt(int i)
 {
@@ -109,9 +103,13 @@ uint countsAt(int i)
 int ownSlot(int count)
 {
     int number = ownNumber();
-    if (!inTextures) return number < int(respondingAt(0)) ? int(respondingAt(1 + number)) : -1;
+    if (!inTextures) return number < int(respondingAt(0, 0)) ? int(respondingAt(1 + number, 0)) : -1;
     if (number >= count || countsAt(number) == 0u) discardTexel();
     return number;
+}
+int rowOf(int slot)
+{
+    return inTextures ? slot : int(respondingAt(1 + slot, 1));
 }
 int ownRow(int slot)
 {
@@ -476,7 +474,7 @@ Sphere sphereAt(int slot)
 {
     uvec4 place = placesAt(slot);
     uvec4 motion = motionAt(slot);
-    bool stays = rests(slot);
+    bool stays = RESTS && rested(slot) && rowOf(slot) == NO_ROW;
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
                   radiusAt(slot), hasFlag(motion.w), stays);
 }
@@ -557,7 +555,6 @@ Pair pairOf(int slot, int other)
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
     float reach = own.radius + pair.sphere.radius;
     pair.contact = pairContact(parted(pair.apart, reach, slot, other), own.velocity - pair.sphere.velocity, reach);
-    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
     return pair;
@@ -594,7 +591,7 @@ void leaveAsCome(inout Pair pair, vec3 anchor)
 Pair pairAs(int slot, int other, ContactImpulse begun)
 {
     Pair pair = pairOf(slot, other);
-    pair.meets = pair.meets && begun.kind != NO_PART;
+    pair.meets = begun.kind != NO_PART;
     leaveAsCome(pair, begun.anchor);
     return pair;
 }
@@ -603,6 +600,11 @@ uniform sampler2DArray totals;
 vec4 totalsAt(int i, int k)
 {
     return texelFetch(totals, ivec3(texelOf(i), k), 0);
+}
+uniform sampler2DArray earlierTotals;
+vec4 earlierTotalsAt(int i, int k)
+{
+    return texelFetch(earlierTotals, ivec3(texelOf(i), k), 0);
 }
 struct Constraint {
     vec3 normal;
@@ -635,6 +637,8 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
     return Constraint(contact.normal, partingSpeed(contact.depth, reach, isLoaded(begun)), weights, lacking(contact.depth, reach),
                       pair.meets ? pair.material.y : -1.0);
 }
+#define partnerRowsAt(i, e) uint(0)
+#define rowSpheresAt(i, k) vec4(0)
 uniform sampler2DArray normals;
 vec4 normalsAt(int i, int e)
 {
@@ -661,21 +665,29 @@ vec3 ahead(vec3 latest, vec3 before)
 {
     return momentum == 0.0 ? latest : latest + (latest - before) * momentum;
 }
-Moved movedAt(int slot)
+int rowOfOther(int slot, int e)
+{
+    return rowOf(int(listsAt(slot, e)));
+}
+void loadOwnSphere(int slot)
+{
+    loadSphere(slot);
+}
+Moved movedAt(int row)
 {
     if (inTextures && !SPREADS) {
-        Sphere sphere = sphereAt(slot);
-        return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
-                     ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+        Sphere sphere = sphereAt(row);
+        return Moved(sphere.velocity + ahead(totalsAt(row, 0).xyz, earlierTotalsAt(row, 0).xyz) * sphere.weight,
+                     ahead(totalsAt(row, 1).xyz, earlierTotalsAt(row, 1).xyz) * sphere.weight);
     }
-    if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
-    return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
+    if (row == NO_ROW) return Moved(vec3(0.0), vec3(0.0));
+    return Moved(velocitiesAt(row, 0).xyz, velocitiesAt(row, 1).xyz);
 }
 void loadOwn(int slot)
 {
-    loadSphere(slot);
+    loadOwnSphere(slot);
     ownCount = effectiveCountOf(slot, own);
-    ownMoved = movedAt(slot);
+    ownMoved = movedAt(ownRow(slot));
 }
 Constraint constrainCollider(NearCollider near)
 {
@@ -699,10 +711,10 @@ ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
     float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
     return ContactImpulse(taken, max(apart, 0.0), taken == wanted, vec3(0.0), 0.0, PERSISTENT);
 }
-vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
+vec4 solve(int row, Constraint asked, vec4 push, vec4 before)
 {
     if (asked.friction < 0.0) return vec4(0.0);
-    return firstPart(solved(asked, movedAt(other), push, before));
+    return firstPart(solved(asked, movedAt(row), push, before));
 }
 uniform sampler2DArray anchors;
 vec4 anchorsAt(int i, int e)
@@ -734,7 +746,7 @@ vec4 solveEntry(int slot, int e, Constraint asked)
     if (inTextures) return impulsesAt(row, e);
     vec4 push = impulsesAt(row, e);
     vec4 before = earlierImpulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    vec4 next = solve(rowOfOther(slot, e), asked, push, before);
     addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);
     return next;
@@ -753,8 +765,9 @@ void main()
     int slot = ownSlot(count);
     if (slot < 0) return;
     loadOwn(slot);
+    int row = ownRow(slot);
     int listed = listedOf(slot);
-    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
+    vec3 impulse = -(inTextures ? warmStartAt(row) : rowSpheresAt(row, 1)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         Constraint asked = constraintOf(slot, e);
@@ -763,27 +776,27 @@ void main()
         shift += asked.normal * abs(push.w);
     }
     if (COLLIDERS) {
-        int row = memoryRow(slot);
+        int memory = memoryRow(slot);
         vec4 next[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
             NearCollider near = colliderNear(sphereOf(slot), k);
             if (!isNear(near) || own.weight <= 0.0) break;
-            vec4 push = colliderImpulsesAt(row, k);
-            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
+            vec4 push = colliderImpulsesAt(memory, k);
+            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(memory, k));
             impulse += next[k].xyz;
             shift += near.normal * next[k].w;
-            putEarlierColliderImpulses(row, k, push);
-            putColliderImpulses(row, k, next[k]);
+            putEarlierColliderImpulses(memory, k, push);
+            putColliderImpulses(memory, k, next[k]);
         }
         putAllNextColliderImpulses(slot, next);
     }
-    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
-    putAllNextTotals(slot, next);
-    putAllEarlierTotals(slot, next);
-    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
-    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
-    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
-    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(row, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(row, next);
+    putAllEarlierTotals(row, next);
+    vec3 further = impulse + (impulse - totalsAt(row, 0).xyz) * nextMomentum;
+    putNextVelocities(row, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(row, 1).xyz) * nextMomentum;
+    putNextVelocities(row, 1, vec4(further * own.weight, 0.0));
     endBatch();
 }

@@ -16,17 +16,25 @@ void main()
     putCells(slot, sphereCellsAt(sphere));
 }
 #else
-#include "contact/search/respond.glsl"
+#include "contact/flags.glsl"
+#include "contact/response/batches.glsl"
 #ifdef MARKS
 #include "contact/rest/mark_groups.glsl"
 #endif
-#pragma writes slots marks
+#pragma writes slots marks responding
+
+void noneResponds()
+{
+    putResponding(0, 0, 0u);
+    for (int b = 0; b < batches.length(); ++b) batches[b] = Batch(0u, 1u, 1u, 0u);
+}
 
 // What every slot begins a step with.
 void beginSlot(int slot, uint sphere)
 {
     putSlots(sphere, uint(slot));
     putMarks(slot, 0u);
+    if (RESTS) putResponding(1 + slot, 1, uint(NO_ROW));
     if (gl_GlobalInvocationID.x == 0u) {
         noneResponds();
 #ifdef MARKS

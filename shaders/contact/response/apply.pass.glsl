@@ -5,7 +5,6 @@ const bool applies = true;
 #include "contact/response/changes.glsl"
 #include "contact/response/vertices.glsl"
 #include "contact/slots.glsl"
-#include "contact/search/responding.glsl"
 #pragma reads sorted
 #pragma writes loads
 
@@ -49,8 +48,9 @@ void main()
     if (lane < 0 || lane >= partSpheres) return;
     int molecule = lane / SPHERES;
     int vertex = lane - molecule * SPHERES;
+    int row = ownRow(slot);
     Total change = noTotal;
-    add(change, Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, warmStartAt(firstSphere + lane).xyz),
+    add(change, Total(totalsAt(row, 0).xyz, totalsAt(row, 1).xyz, warmStartAt(firstSphere + lane).xyz),
         weightOf(shapeOf(vertex), texelFetch(oldRecords, molecule).w < 0.0));
     add(molecule, vertex, change);
 }

@@ -1,10 +1,10 @@
 // Totals by slot become changes of the spheres of a molecule, of which each may move others, because they lie on triangles of the same
 // vertices or on a rigid body (RIGID). Needs `applies`: whether what contact changes goes into the state, or on to the next iteration.
 #include "contact/grid/shape.glsl"
-#include "contact/flags.glsl"
+#include "contact/search/responding.glsl"
 #include "contact/rest/states.glsl"
 #include "contact/response/body.glsl"
-#pragma reads counts totals earlierTotals warmStart cells effectiveCounts motions sphereMotions
+#pragma reads totals earlierTotals warmStart cells effectiveCounts motions sphereMotions
 
 uniform float momentum;  // of the iteration (contact/response/iteration.glsl)
 uniform VALUES oldRecords;
@@ -51,12 +51,13 @@ Total totalAt(int sphere)
 {
     int slot = slotOf(sphere);
     if (countsAt(slot) == 0u) return noTotal;
-    Total total = Total(totalsAt(slot, 0).xyz, totalsAt(slot, 1).xyz, vec3(0.0));
+    int row = rowOf(slot);
+    Total total = Total(totalsAt(row, 0).xyz, totalsAt(row, 1).xyz, vec3(0.0));
     if (applies) {
         total.load = warmStartAt(inTextures ? slot : sphere).xyz;
     } else if (momentum != 0.0) {
-        total.impulse += (total.impulse - earlierTotalsAt(slot, 0).xyz) * momentum;
-        total.shift += (total.shift - earlierTotalsAt(slot, 1).xyz) * momentum;
+        total.impulse += (total.impulse - earlierTotalsAt(row, 0).xyz) * momentum;
+        total.shift += (total.shift - earlierTotalsAt(row, 1).xyz) * momentum;
     }
     return total;
 }

@@ -3,7 +3,8 @@
 // FIRST is the first choice of a step: with buffers two spheres that touch nothing else, and move nothing else, have their impact there, and
 // all others that choose are listed for the rounds.
 #ifdef FIRST
-#pragma updates places sphereMotions impactRounds impactGroups
+#pragma updates impactRounds impactGroups
+#pragma writes places sphereMotions when buffers
 #pragma writes impacts impactSlots
 const bool isFirst = true;
 #else

@@ -50,7 +50,7 @@ Constraint constrain(int slot, int other, ContactImpulse begun)
 }
 
 #ifndef FIRST
-#pragma reads normals weights
+#pragma reads normals weights partnerRows rowSpheres
 
 // Returns what was worked out.
 Constraint constraintOf(int slot, int e)
@@ -75,23 +75,52 @@ vec3 ahead(vec3 latest, vec3 before)
     return momentum == 0.0 ? latest : latest + (latest - before) * momentum;  // nobody may have written what was before
 }
 
-// Nobody writes the velocity of what rests, and fragments only those of spheres that move others.
-Moved movedAt(int slot)
+#if defined(FIRST) || defined(TEXTURES)
+// Returns the row of what an entry touches, or NO_ROW: it rests.
+int rowOfOther(int slot, int e)
+{
+    return rowOf(int(listsAt(slot, e)));
+}
+
+void loadOwnSphere(int slot)
+{
+    loadSphere(slot);
+}
+#else
+int rowOfOther(int slot, int e)
+{
+    return int(partnerRowsAt(ownRow(slot), e));
+}
+
+// What is held is here as what rests: nothing moves it.
+void loadOwnSphere(int slot)
+{
+    vec4 first = rowSpheresAt(ownRow(slot), 0);
+    own.velocity = first.xyz;
+    own.weight = first.w;
+    own.radius = rowSpheresAt(ownRow(slot), 1).w;
+    own.rests = own.weight == 0.0;
+    ownBody = bodyOf(slot, own);
+}
+#endif
+
+// Nobody moves what rests, and in fragments nobody writes how spheres move that move no others.
+Moved movedAt(int row)
 {
     if (inTextures && !SPREADS) {
-        Sphere sphere = sphereAt(slot);
-        return Moved(sphere.velocity + ahead(totalsAt(slot, 0).xyz, earlierTotalsAt(slot, 0).xyz) * sphere.weight,
-                     ahead(totalsAt(slot, 1).xyz, earlierTotalsAt(slot, 1).xyz) * sphere.weight);
+        Sphere sphere = sphereAt(row);
+        return Moved(sphere.velocity + ahead(totalsAt(row, 0).xyz, earlierTotalsAt(row, 0).xyz) * sphere.weight,
+                     ahead(totalsAt(row, 1).xyz, earlierTotalsAt(row, 1).xyz) * sphere.weight);
     }
-    if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
-    return Moved(velocitiesAt(slot, 0).xyz, velocitiesAt(slot, 1).xyz);
+    if (row == NO_ROW) return Moved(vec3(0.0), vec3(0.0));
+    return Moved(velocitiesAt(row, 0).xyz, velocitiesAt(row, 1).xyz);
 }
 
 void loadOwn(int slot)
 {
-    loadSphere(slot);
+    loadOwnSphere(slot);
     ownCount = effectiveCountOf(slot, own);
-    ownMoved = movedAt(slot);
+    ownMoved = movedAt(ownRow(slot));
 }
 
 // Returns that of a collider, a body of infinite mass, which does not ask whether it slides.
@@ -123,9 +152,9 @@ ContactImpulse solved(Constraint asked, Moved other, vec4 push, vec4 before)
     return ContactImpulse(taken, max(apart, 0.0), taken == wanted, vec3(0.0), 0.0, PERSISTENT);
 }
 
-// Returns the first part of a contact's impulse after the iteration.
-vec4 solve(int other, Constraint asked, vec4 push, vec4 before)
+// Returns the first part of a contact's impulse after the iteration. `row`: of the other sphere.
+vec4 solve(int row, Constraint asked, vec4 push, vec4 before)
 {
     if (asked.friction < 0.0) return vec4(0.0);
-    return firstPart(solved(asked, movedAt(other), push, before));
+    return firstPart(solved(asked, movedAt(row), push, before));
 }

@@ -31,6 +31,6 @@ void main()
     vec3 impulse = w > 0.0 ? pairImpulse(u, n, target, vec3(0.0), vec2(w)) : vec3(0.0);
     impulse = withinFriction(impulse, n, material.y);
     vec3 apart = n * (w > 0.0 ? contact.depth / w : 0.0);
-    putTotals(slot, 0, vec4(impulse, 0.0));
-    putTotals(slot, 1, vec4(impact.happens ? impulse * impact.since : apart, 0.0));
+    putTotals(ownRow(slot), 0, vec4(impulse, 0.0));
+    putTotals(ownRow(slot), 1, vec4(impact.happens ? impulse * impact.since : apart, 0.0));
 }

@@ -33,7 +33,7 @@ Sphere sphereAt(int slot)
 {
     uvec4 place = placesAt(slot);
     uvec4 motion = motionAt(slot);
-    bool stays = rests(slot);
+    bool stays = RESTS && rested(slot) && rowOf(slot) == NO_ROW;
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), stays ? 0.0 : withoutFlag(motion.w),
                   radiusAt(slot), hasFlag(motion.w), stays);
 }
@@ -71,7 +71,7 @@ struct Pair {
     Sphere sphere;  // the other
     vec3 apart;     // m, from its centre to this one's
     PairContact contact;
-    bool meets;     // both lists hold it, or the other sphere rests and has none; and one of the two is free
+    bool meets;     // they take part in the response together
     vec2 material;  // x restitution, y friction
     BodySphere body;
 };
@@ -129,7 +129,6 @@ Pair pairOf(int slot, int other)
     pair.apart = localDifference(own.place, pair.sphere.place, cell);
     float reach = own.radius + pair.sphere.radius;
     pair.contact = pairContact(parted(pair.apart, reach, slot, other), own.velocity - pair.sphere.velocity, reach);
-    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     pair.material = materialOf(own, pair.sphere);
     pair.body = bodyOf(other, pair.sphere);
     return pair;
@@ -180,7 +179,7 @@ void leaveAsCome(inout Pair pair, vec3 anchor)
 Pair pairAs(int slot, int other, ContactImpulse begun)
 {
     Pair pair = pairOf(slot, other);
-    pair.meets = pair.meets && begun.kind != NO_PART;
+    pair.meets = begun.kind != NO_PART;
     leaveAsCome(pair, begun.anchor);
     return pair;
 }

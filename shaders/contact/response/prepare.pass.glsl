@@ -4,11 +4,11 @@
 #pragma writes nextImpulses anchors
 #else
 #pragma updates impulses anchors colliderImpulses
-#pragma updates warmStart when buffers
+#pragma reads warmStart
 #pragma writes totals warmStart contactSums nextColliderImpulses
 #pragma writes effectiveCounts when !spreads
 #pragma writes velocities when buffers !spreads
-#pragma writes impactGroups
+#pragma writes rowSpheres
 #endif
 #include "contact/response/known.glsl"
 #include "contact/response/hits.glsl"
@@ -53,6 +53,7 @@ ContactImpulse prepare(int slot, int e, out Pair pair)
     ContactImpulse old = oldContact(other);
     bool isOld = old.kind != NO_PART;
     pair = pairOf(slot, other);
+    pair.meets = own.weight + pair.sphere.weight > 0.0 && (pair.sphere.rests || holds(other, slot));
     PairContact contact = pair.contact;
     float reach = own.radius + pair.sphere.radius;
     bool hadImpact = isStruck(slot) && hasHit(slot, e);
@@ -140,12 +141,8 @@ void main()
 {
     int slot = ownSlot(count);
     if (slot < 0) return;
-    if (ownNumber() == 0) {  // nobody is listed for the next step
-        putImpactGroups(0, 0, 0u);
-        putImpactGroups(0, 3, 0u);
-        putImpactGroups(0, 4, 0u);
-    }
     loadOwn(slot);
+    int row = ownRow(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);
     vec3 shift = vec3(0.0);
@@ -179,12 +176,14 @@ void main()
     }
     impulse -= acted.xyz;
     if (inTextures || !remembers) putWarmStart(memoryRow(slot), vec4(acted.xyz, 0.0));
-    putTotals(slot, 0, vec4(impulse, start));
-    putTotals(slot, 1, vec4(shift, 0.0));
+    putTotals(row, 0, vec4(impulse, start));
+    putTotals(row, 1, vec4(shift, 0.0));
+    putRowSpheres(row, 0, vec4(own.velocity, own.weight));
+    putRowSpheres(row, 1, vec4(acted.xyz, own.radius));
     putContactSums(slot, 0, vec4(contacts.diagonal, contacts.number));
     putContactSums(slot, 1, vec4(contacts.beside, 0.0));
     putEffectiveCounts(slot, floatBitsToUint(listed > 0 ? effectiveCount(contacts) : 0.0));
-    putVelocities(slot, 0, vec4(own.velocity + impulse * own.weight, 0.0));
-    putVelocities(slot, 1, vec4(shift * own.weight, 0.0));
+    putVelocities(row, 0, vec4(own.velocity + impulse * own.weight, 0.0));
+    putVelocities(row, 1, vec4(shift * own.weight, 0.0));
 }
 #endif

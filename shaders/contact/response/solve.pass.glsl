@@ -2,11 +2,13 @@
 // place of `earlierImpulses`, which are `impulses` from then on, and the first (FIRST) works out the constraints for all. In fragments passes
 // before it work out the constraints (FIRST) and then the impulses (ENTRIES), some in each; this one works out the colliders' and the
 // sums.
-#pragma updates impulses earlierImpulses earlierTotals colliderImpulses earlierColliderImpulses
+#pragma updates colliderImpulses earlierColliderImpulses
+#pragma reads impulses earlierImpulses
+#pragma writes earlierImpulses earlierTotals when buffers
 #ifdef FIRST
 const float momentum = 0.0;
 #pragma updates normals weights when buffers
-#pragma writes normals weights
+#pragma writes normals weights partnerRows
 #else
 uniform float momentum;
 #endif
@@ -18,6 +20,7 @@ Constraint constraintOf(int slot, int e)
 {
     int row = ownRow(slot);
     Constraint made = constrain(slot, int(listsAt(slot, e)), impulseFrom(vec4(0.0), anchorsAt(row, e)));
+    putPartnerRows(row, e, uint(rowOfOther(slot, e)));
     putNormals(row, e, vec4(made.normal, made.target));
     putWeights(row, e, vec4(made.weights, made.lacks, made.friction));
     return made;
@@ -34,11 +37,11 @@ void makeEntry(int slot, int e)
 {
     Constraint asked = constraintOf(slot, e);
 #ifndef FIRST
-    putNextImpulses(slot, e, solve(int(listsAt(slot, e)), asked, impulsesAt(slot, e), earlierImpulsesAt(slot, e)));
+    putNextImpulses(slot, e, solve(rowOfOther(slot, e), asked, impulsesAt(slot, e), earlierImpulsesAt(slot, e)));
 #endif
 }
 #else
-#pragma reads warmStart
+#pragma reads warmStart rowSpheres
 #pragma writes nextTotals nextVelocities nextColliderImpulses
 
 uniform float nextMomentum;  // of the next iteration
@@ -81,7 +84,7 @@ vec4 solveEntry(int slot, int e, Constraint asked)
     if (inTextures) return impulsesAt(row, e);
     vec4 push = impulsesAt(row, e);
     vec4 before = earlierImpulsesAt(row, e);
-    vec4 next = solve(int(listsAt(slot, e)), asked, push, before);
+    vec4 next = solve(rowOfOther(slot, e), asked, push, before);
     addResidual(asked, next, push, before);
     putEarlierImpulses(row, e, next);  // these are the next from now on
     return next;
@@ -103,8 +106,9 @@ void main()
     int slot = ownSlot(count);
     if (slot < 0) return;
     loadOwn(slot);
+    int row = ownRow(slot);
     int listed = listedOf(slot);
-    vec3 impulse = -warmStartAt(memoryRow(slot)).xyz;
+    vec3 impulse = -(inTextures ? warmStartAt(row) : rowSpheresAt(row, 1)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         Constraint asked = constraintOf(slot, e);
@@ -113,28 +117,28 @@ void main()
         shift += asked.normal * abs(push.w);
     }
     if (COLLIDERS) {
-        int row = memoryRow(slot);
+        int memory = memoryRow(slot);
         vec4 next[MOST_COLLIDERS];
         for (int k = 0; k < MOST_COLLIDERS; ++k) next[k] = vec4(0.0);
         for (int k = 0; k < MOST_COLLIDERS; ++k) {
             NearCollider near = colliderNear(sphereOf(slot), k);
             if (!isNear(near) || own.weight <= 0.0) break;
-            vec4 push = colliderImpulsesAt(row, k);
-            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(row, k));
+            vec4 push = colliderImpulsesAt(memory, k);
+            next[k] = solveCollider(near, push, earlierColliderImpulsesAt(memory, k));
             impulse += next[k].xyz;
             shift += near.normal * next[k].w;
-            putEarlierColliderImpulses(row, k, push);
-            putColliderImpulses(row, k, next[k]);
+            putEarlierColliderImpulses(memory, k, push);
+            putColliderImpulses(memory, k, next[k]);
         }
         putAllNextColliderImpulses(slot, next);
     }
-    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(slot, 0).w), vec4(shift, 0.0));
-    putAllNextTotals(slot, next);
-    putAllEarlierTotals(slot, next);  // with buffers these are the next from now on
-    vec3 further = impulse + (impulse - totalsAt(slot, 0).xyz) * nextMomentum;
-    putNextVelocities(slot, 0, vec4(own.velocity + further * own.weight, 0.0));
-    further = shift + (shift - totalsAt(slot, 1).xyz) * nextMomentum;
-    putNextVelocities(slot, 1, vec4(further * own.weight, 0.0));
+    vec4 next[2] = vec4[2](vec4(impulse, totalsAt(row, 0).w), vec4(shift, 0.0));
+    putAllNextTotals(row, next);
+    putAllEarlierTotals(row, next);  // with buffers these are the next from now on
+    vec3 further = impulse + (impulse - totalsAt(row, 0).xyz) * nextMomentum;
+    putNextVelocities(row, 0, vec4(own.velocity + further * own.weight, 0.0));
+    further = shift + (shift - totalsAt(row, 1).xyz) * nextMomentum;
+    putNextVelocities(row, 1, vec4(further * own.weight, 0.0));
     endBatch();
 }
 #endif

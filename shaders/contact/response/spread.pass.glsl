@@ -41,8 +41,10 @@ bool isNeeded()
 void put(int sphere, Total change)
 {
     int slot = inTextures ? ownNumber() : slotOf(sphere);
-    putVelocities(slot, 0, vec4(velocityBefore(sphere) + change.impulse, 0.0));
-    putVelocities(slot, 1, vec4(change.shift, 0.0));
+    if (!inTextures && (countsAt(slot) & RESPONDS) == 0u) return;  // nothing touches it
+    int row = rowOf(slot);
+    putVelocities(row, 0, vec4(velocityBefore(sphere) + change.impulse, 0.0));
+    putVelocities(row, 1, vec4(change.shift, 0.0));
 }
 
 void spread(int molecule, int own)

@@ -1,10 +1,12 @@
 // The last stage of contact/response/pair.glsl: how far the contacts move the spheres, and what they remember for the next step.
-#pragma updates totals colliderImpulses
+#pragma updates colliderImpulses
+#pragma reads totals
+#pragma writes totals when buffers
 #include "contact/grid/colliders.glsl"
 #include "contact/response/pair.glsl"
 #include "contact/response/hits.glsl"
 #pragma reads impulses anchors
-#pragma writes warmStart partners keptImpulses keptAnchors oldNormals
+#pragma writes warmStart partners keptImpulses keptAnchors oldNormals impactGroups
 #pragma writes nextTotals when textures
 
 // Returns how far a contact moves the sphere beside what pushes it apart, kg m: what
@@ -50,13 +52,18 @@ void main()
 {
     int slot = ownSlot(count);
     if (slot < 0) return;
+    if (ownNumber() == 0) {  // nobody is listed for the next step
+        putImpactGroups(0, 0, 0u);
+        putImpactGroups(0, 3, 0u);
+        putImpactGroups(0, 4, 0u);
+    }
     loadSphere(slot);
     int sphere = sphereOf(slot);
     int row = ownRow(slot);
     int listed = listedOf(slot);
-    vec4 total = totalsAt(slot, 0);
+    vec4 total = totalsAt(row, 0);
     vec3 missing = total.xyz;
-    vec3 shift = totalsAt(slot, 1).xyz;
+    vec3 shift = totalsAt(row, 1).xyz;
     vec3 sum = vec3(0.0);    // of its impulses, N s
     vec3 keeps = vec3(0.0);  // as they are remembered
     float part = 1.0;  // of what colliders push, with which the next step begins
@@ -93,10 +100,10 @@ void main()
         total.xyz += uintBitsToFloat(impactsAt(slot, 0).xyz);
         shift += uintBitsToFloat(impactsAt(slot, 1).xyz);
     }
-    putTotals(slot, 0, vec4(total.xyz, 0.0));
-    putTotals(slot, 1, vec4(shift, 0.0));
-    putNextTotals(slot, 0, vec4(total.xyz, 0.0));
-    putNextTotals(slot, 1, vec4(shift, 0.0));
+    putTotals(row, 0, vec4(total.xyz, 0.0));
+    putTotals(row, 1, vec4(shift, 0.0));
+    putNextTotals(row, 0, vec4(total.xyz, 0.0));
+    putNextTotals(row, 1, vec4(shift, 0.0));
     vec3 acts = isSoft() ? nearSum(sum, keeps) : followed(sum, missing);
     if (listed == 0 && !isHeld) acts = vec3(0.0);
     putWarmStart(memoryRow(slot), vec4(acts, inTextures ? part : asMemory(uint(listed) | (isHeld ? HELD : 0u))));

@@ -109,8 +109,8 @@ void finish(int slot)
     newLists = entries;
 }
 #else
-#include "contact/search/respond.glsl"
-#pragma updates counts lists
+#include "contact/response/batches.glsl"
+#pragma updates counts lists responding
 
 layout(std430) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
 
@@ -126,6 +126,14 @@ bool isListed(int slot)
     bool known = false;
     for (int e = 0; e < min(found, LIST); ++e) known = known || int(listsAt(searching, e)) == slot;
     return known;
+}
+
+void addResponding(int slot)
+{
+    uint row = atomicAdd(respondingBuffer[0], 1u);
+    atomicMax(batches[0].groupsX, row / 64u + 1u);
+    putResponding(1u + row, 0, uint(slot));
+    putResponding(1 + slot, 1, row);
 }
 
 void finish(int slot)

@@ -77,7 +77,11 @@ ContactData::ContactData(gpu::Context& usedContext, const Plan& usedPlan, const 
 gpu::ArraySizes ContactData::sizes() const {
     const size_t spheres = textures ? size_t(contact->spheres) : padded;
     const size_t cells = contact->cells();
-    return {{{"sphere", spheres}, {"slot", spheres}, {"key", cells}, {"counters", countWords(cells)}},
+    return {{{"sphere", spheres},
+             {"slot", spheres},
+             {"row", spheres},
+             {"key", cells},
+             {"counters", countWords(cells)}},
             size_t(listLength),
             rowBits(cells)};
 }
