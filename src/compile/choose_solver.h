@@ -20,9 +20,11 @@ namespace shoal {
 // The choice is the same on every device. `plan`: its fields and colliders are counted; takes the warnings.
 //
 // Error (located at the solver, else at the group): the substep is beyond what the named solver holds stable,
-// or zero, or drag is beyond what it takes; says how many substeps would do.
+// or zero, or drag is beyond what it takes; says how many substeps would do. bdf2-newton is named for stiff
+// bodies that a lane holds, beside colliders.
 // Warnings: an implicit solver strains the springs by 0.02 more than 16 times the substeps of bdf2-xpbd do,
-// with what would do instead; the substep is too long for a force, which no solver takes implicitly.
+// with what would do instead; bdf2-newton takes larger stiff bodies, beside colliders; the substep is too
+// long for a force, which no solver takes implicitly.
 void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan& out);
 
 // "the force \"drain\" (vortexLine) turns \"dust\" by up to 1000 rad/s: ..." where the substep (s) is too

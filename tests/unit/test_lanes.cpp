@@ -22,6 +22,19 @@ Molecule row(int vertices, bool sprung) {
     return out;
 }
 
+// Of so many vertices along each edge, as stiff as a body.
+Molecule block(int side) {
+    Molecule out;
+    for (int i = 0; i < side * side * side; ++i)
+        out.vertices.push_back(
+            {0.1 * glm::dvec3(i % side, i / side % side, i / (side * side)), {}, 0.01, false});
+    for (int i = 0; i < int(out.vertices.size()); ++i)
+        for (int j = 0; j < i; ++j)
+            if (glm::distance(out.vertices[size_t(i)].position, out.vertices[size_t(j)].position) < 0.18)
+                out.springs.push_back({j, i, 1e8, 1, {}, {}});
+    return out;
+}
+
 Plan planOf(const Molecule& molecule, int colliders, SolverKind solver = SolverKind::leapfrog) {
     Scene scene;
     scene.solver.kind = solver;
@@ -150,6 +163,13 @@ TEST_CASE("bdf2-newton has a lane a vertex, and auto takes it where a lane does 
                Catch::Contains("bdf2-newton") && Catch::Contains("compute shaders alone"));
     CHECK_THAT(messageOf([&] { choosePath(large, Path::pingPong, {}); }),
                Catch::Contains("bdf2-newton") && Catch::Contains("needs the fused path"));
+    // stiff bodies beside a collider
+    CHECK_THAT(messageOf([&] { planOf(block(2), 1, SolverKind::bdf2Newton); }),
+               Catch::Contains("\"some\" is a stiff body") && Catch::Contains(": use bdf2-xpbd"));
+    const Plan body = planOf(block(5), 1, SolverKind::bdf2Newton);
+    REQUIRE(body.warnings.size() == 2);
+    CHECK_THAT(body.warnings.back().message, Catch::Contains("\"some\" is a stiff body"));
+    CHECK(planOf(block(2), 0, SolverKind::bdf2Newton).groups[0].rigid);
     // more than a workgroup holds
     CHECK_THAT(messageOf([&] { chosen(planOf(row(1400, true), 0, SolverKind::bdf2Newton), false); }),
                Catch::Contains("a workgroup holds at most 1365"));
