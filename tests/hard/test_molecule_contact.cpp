@@ -239,7 +239,8 @@ TEST_CASE("hard: a heap of leaves", "[hard][molecule contact][fused]") {
     test::holds("three heaps of leaves with `rest` are no livelier than without", [](const Solver& solver,
                                                                                      Judge& judge) {
         for (const uint64_t seed : {1, 2, 3}) {
-            double speeds[2] = {};  // m/s, RMS of a second: without, with
+            double speeds[2] = {};            // m/s, RMS of half a second: without, with
+            std::vector<double> squares(30);  // of each leaf, without; one may still slip off another
             for (const bool rests : {false, true}) {
                 Scene scene = leaves(solver, seed);
                 if (rests) scene.contact.rest = 0.02;
@@ -249,13 +250,19 @@ TEST_CASE("hard: a heap of leaves", "[hard][molecule contact][fused]") {
                     test::runChecked(simulation, 5);
                     const Snapshot now = simulation.snapshot(0);
                     judge.finite(now);
-                    for (const glm::dvec3& v : now.velocities)
-                        speeds[rests] += glm::dot(v, v) / (6.0 * double(now.velocities.size()));
+                    const double share = 1 / (6.0 * double(now.velocities.size()));
+                    for (size_t v = 0; v < now.velocities.size(); ++v) {
+                        const double square = glm::dot(now.velocities[v], now.velocities[v]);
+                        speeds[rests] += share * square;
+                        if (!rests)
+                            squares[v * squares.size() / now.velocities.size()] += 30 * share * square;
+                    }
                 }
                 speeds[rests] = std::sqrt(speeds[rests]);
             }
+            std::nth_element(squares.begin(), squares.begin() + 15, squares.end());
             judge.atMost("with `rest` - without, m/s", std::max(speeds[1] - speeds[0], 0.0), 1e-5);
-            judge.atMost("without, m/s", speeds[0], 0.03);
+            judge.atMost("median without, m/s", std::sqrt(squares[15]), 0.003);
         }
     });
 }
