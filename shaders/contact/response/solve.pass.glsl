@@ -2,6 +2,9 @@
 // place of `earlierImpulses`, which are `impulses` from then on, and the first (FIRST) works out the constraints for all. In fragments passes
 // before it work out the constraints (FIRST) and then the impulses (ENTRIES), some in each; this one works out the colliders' and the
 // sums.
+//
+// An entry of `earlierImpulses` is read as a texture, which a CPU rasteriser fetches faster than from a storage block: what takes its place is
+// made of it, so that it comes later, and no other lane reads it.
 #pragma updates colliderImpulses earlierColliderImpulses
 #pragma reads impulses earlierImpulses
 #pragma writes earlierImpulses earlierTotals when buffers
