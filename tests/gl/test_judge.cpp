@@ -290,7 +290,8 @@ void printErrors(Clusters100 (*clustersOf)(double ratio)) {
 TEST_CASE("contact converges to what projected Gauss-Seidel does", "[molecule contact]") {
     const Path path = pathHere();
     const Bound bound = GENERATE(Bound{1, 0, 4, 0.25, 0.4}, Bound{1, 0, 16, 0.04, 0.08},
-                                 Bound{1, 0, 64, 2e-4, 0.02}, Bound{1, 0.5, 256, 1e-5, 0.02},
+                                 Bound{1, 0, 64, 2e-4, 0.02}, Bound{1, 0.5, 64, 0.003, 0.05},
+                                 Bound{100, 0, 64, 0.008, 0.3}, Bound{1, 0.5, 256, 1e-5, 0.02},
                                  Bound{100, 0, 256, 5e-4, 0.04}, Bound{10, 0.5, 256, 5e-4, 0.06});
     hold(path, ofMarbles, bound, 95);
 }

@@ -22,7 +22,7 @@ Molecule row(int vertices, bool sprung) {
     return out;
 }
 
-// Of so many vertices along each edge, as stiff as a body.
+// A cube with so many vertices along each edge, as stiff as a body.
 Molecule block(int side) {
     Molecule out;
     for (int i = 0; i < side * side * side; ++i)

@@ -1,4 +1,4 @@
-// Totals by slot become changes of the spheres of a molecule, of which each may move others, because they lie on triangles of the same
+// Totals by row become changes of the spheres of a molecule, of which each may move others, because they lie on triangles of the same
 // vertices or on a rigid body (RIGID). Needs `applies`: whether what contact changes goes into the state, or on to the next iteration.
 #include "contact/grid/shape.glsl"
 #include "contact/search/responding.glsl"
