@@ -12,8 +12,8 @@
 //
 //   z = flight - h flown,  q = flight without springs,  eta = h
 //
-// where flown and flight are the velocity and the way after h. A molecule that rests on a collider keeps its history: begun
-// anew in every step, its free vertices would take a velocity of g h / 2 for rest.
+// where flown and flight are the velocity and the way after h. A molecule that lies on colliders keeps its history: begun anew in
+// every step, vertices that springs hold up would take a velocity of g h / 2 for rest.
 #include "fused/stage.glsl"
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of one of them NO_HISTORY: none
@@ -57,15 +57,17 @@ vec3 wayBeyond(vec3 moved, vec3 gained, vec3 ended)
     return moved - (ended - 0.5 * gained) * substep;
 }
 
-// Adds to a vertex's history how contact has changed its place (m) and velocity (m/s). Returns whether that was an
-// impact. A vertex that still moves as it did before, within the roundings below, had none; mostly it is at rest.
+// Adds to a vertex's history how contact has changed its place (m) and velocity (m/s). Returns whether that was an impact: whether
+// the step has changed the velocity by more than gravity does in two, or the way likewise. Where there are no springs, to which a
+// step begun anew is exact, or no gravity, anything beyond a rounding is one.
 bool changeHistory(vec3 shift, vec3 change, inout vec3 displacement, inout vec3 gained, vec3 ended)
 {
     gained += change;
-    vec3 along = (ended + change - gained) * substep;
+    vec3 along = (ended + change - 0.5 * gained) * substep;
     vec3 off = displacement + shift - along;
     displacement = along;  // what rests leaves no rounding of a way
-    return dot(gained, gained) > 1e-10 || dot(off, off) > 1e-12;
+    float fall = SPRINGS ? 2.0 * length(gravity) * substep : 0.0;
+    return length(gained) > max(fall, 1e-5) || length(off) > max(fall * substep, 1e-6);
 }
 
 void endHistory()
