@@ -25,6 +25,7 @@ vec3 normalAt(vec2 point)
 
 void main()
 {
+    testDepthLate();
     vec2 point = inSquare();
     vec4 shown = shownAt(point);
     if (SOFT) {

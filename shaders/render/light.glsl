@@ -1,6 +1,7 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
 // Places are relative to the eye, in the scene's directions. With WATER all below its surface is under water. Set by C++,
-// true or false: SHADOWS, which the sun casts, and WIDE_SHADOWS, beyond the molecules too.
+// true or false: SHADOWS, which the sun casts, and WIDE_SHADOWS, beyond the molecules too. With GATHERS four texels of a shadow
+// map are read at once.
 
 #include "render/sky.glsl"
 #include "render/tone.glsl"
@@ -8,6 +9,15 @@
 // Where leaves are dense they hide the sky. The crown is a sphere around the molecules that are placed
 // densely on a model; the sky that it hides is found in closed form. A radius of 0 switches it off.
 uniform vec4 crown;  // xyz middle, w radius, m
+
+// To be called first. With several samples a pixel Mesa's CPU rasteriser shades eight pixels at once even where none is
+// covered, unless depth is tested after the shader, as it is where that writes a stencil value. There is no stencil.
+void testDepthLate()
+{
+#ifdef LATE_DEPTH
+    gl_FragStencilRefARB = 0;
+#endif
+}
 
 struct Surface {
     vec3 place;          // m, relative to the eye
@@ -29,28 +39,37 @@ struct Surface {
 
 uniform sampler2DShadow shadowMap;
 uniform mat4 toShadow;      // place -> texture and depth, both in [0, 1]
-uniform vec3 shadowFilter;  // x: filter radius in texture units, y: offset along the normal, z: towards the sun, m
+uniform vec2 shadowOffsets;  // m, along the normal and towards the sun
 uniform sampler2DShadow wideShadowMap;  // of what stands still, where the other map ends
 uniform mat4 toWideShadow;
-uniform vec3 wideShadowFilter;
+uniform vec2 wideShadowOffsets;
 
-// Share of the sun that is seen. Sixteen taps on a Vogel disc, each a bilinear comparison.
-float unshaded(sampler2DShadow map, mat4 toMap, vec3 mapFilter, vec3 place, vec3 normal)
+// Share of the sun that is seen: the mean of 3 x 3 bilinear comparisons a texel apart, which are 16 texels.
+float unshaded(sampler2DShadow map, mat4 toMap, vec2 offsets, vec3 place, vec3 normal)
 {
     // A surface seen at a grazing angle spans more depth within one texel: shift it more.
     float facing = dot(normal, sunDirection);
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
-    vec3 shifted = place + normal * (sign(facing) * mapFilter.y * (0.4 + slope)) + sunDirection * mapFilter.z;
+    vec3 shifted = place + normal * (sign(facing) * offsets.x * (0.4 + slope)) + sunDirection * offsets.y;
     vec3 uvz = (toMap * vec4(shifted, 1.0)).xyz;
     uvz.z = min(uvz.z, 1.0);  // below the map's far end: shaded by whatever the map holds
+    vec2 texel = 1.0 / vec2(textureSize(map, 0));
     float lit = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        float radius = sqrt((float(i) + 0.5) / 16.0);
-        float angle = 2.3999632 * float(i);
-        vec2 tap = uvz.xy + mapFilter.x * radius * vec2(cos(angle), sin(angle));
-        lit += texture(map, vec3(tap, uvz.z));
+#ifdef GATHERS
+    vec2 share = fract(uvz.xy / texel - 0.5);
+    vec2 corner = uvz.xy - (share - 0.5) * texel;  // between four texels, the middle ones of 16
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        vec2 outer = mix(1.0 - share, share, vec2(side));  // of the texels at the rim
+        vec2 low = mix(outer, vec2(1.0), vec2(side));
+        vec2 high = mix(vec2(1.0), outer, vec2(side));
+        vec4 seen = textureGather(map, corner + texel * vec2(2 * side - 1), uvz.z);
+        lit += low.y * (low.x * seen.w + high.x * seen.z) + high.y * (low.x * seen.x + high.x * seen.y);
     }
-    return lit / 16.0;
+#else
+    for (int i = 0; i < 9; ++i) lit += texture(map, vec3(uvz.xy + texel * vec2(i % 3 - 1, i / 3 - 1), uvz.z));
+#endif
+    return lit / 9.0;
 }
 
 float sunVisibility(vec3 place, vec3 normal)
@@ -59,9 +78,9 @@ float sunVisibility(vec3 place, vec3 normal)
     if (WIDE_SHADOWS) {
         vec2 fromMiddle = abs((toShadow * vec4(place, 1.0)).xy - 0.5);
         if (max(fromMiddle.x, fromMiddle.y) > 0.49)
-            return unshaded(wideShadowMap, toWideShadow, wideShadowFilter, place, normal);
+            return unshaded(wideShadowMap, toWideShadow, wideShadowOffsets, place, normal);
     }
-    return unshaded(shadowMap, toShadow, shadowFilter, place, normal);
+    return unshaded(shadowMap, toShadow, shadowOffsets, place, normal);
 }
 
 // Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside,

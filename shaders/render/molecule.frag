@@ -17,6 +17,7 @@ out vec4 fragment;
 
 void main()
 {
+    testDepthLate();
     vec3 flatNormal = cross(dFdx(place), dFdy(place));  // before any discard, after which slopes are undefined
     vec3 albedo = color;
     float covered = 1.0;

@@ -16,6 +16,7 @@ out vec4 fragment;
 
 void main()
 {
+    testDepthLate();
     vec2 point = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;
     float r2 = dot(point, point);
     float edge = sqrt(r2);

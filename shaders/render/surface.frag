@@ -63,6 +63,7 @@ float gridLines(vec2 uv)
 
 void main()
 {
+    testDepthLate();
     vec3 n = towardsEye(normalize(normal), place, cross(dFdx(place), dFdy(place)));
     vec3 albedo = color * meshColor.rgb;
     float covered = meshColor.a;

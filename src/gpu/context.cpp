@@ -133,6 +133,8 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.version = getString(GL_VERSION);
     info.glslVersion = getString(GL_SHADING_LANGUAGE_VERSION);
     info.software = isSoftwareRenderer(info.renderer);
+    info.shadowGather = hasExtension("GL_ARB_gpu_shader5");
+    info.stencilExport = hasExtension("GL_ARB_shader_stencil_export");
     if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3))
         throw Error(concat("found OpenGL ",
                            info.version.empty() ? "of unknown version" : info.version.c_str(), " (",

@@ -117,6 +117,9 @@ struct ContextInfo {
     bool subgroups = false;
     // anyInvocationARB (GL_ARB_shader_group_vote).
     bool groupVote = false;
+    // By an extension: textureGather of a shadow map (GL_ARB_gpu_shader5); that a fragment may write a
+    // stencil value (GL_ARB_shader_stencil_export).
+    bool shadowGather = false, stencilExport = false;
 
     bool atLeast(int wantedMajor, int wantedMinor) const {
         return major > wantedMajor || (major == wantedMajor && minor >= wantedMinor);

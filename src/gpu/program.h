@@ -23,7 +23,7 @@ struct ShaderSource;
 
 struct ProgramOptions {
     std::string vertex, fragment;                  // files below Context::shaders()
-    std::vector<std::string> defines;              // "NAME" or "NAME value"
+    std::vector<std::string> defines;              // "NAME", "NAME value" or requireExtension()
     std::map<std::string, std::string> generated;  // files that exist only in memory, by include name
     std::string label;
     std::string compute = {};  // a compute program: its file; vertex and fragment stay empty

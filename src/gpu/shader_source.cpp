@@ -251,13 +251,17 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
     const int headerFile = resolver.addFile("shader header");
     forEachLine(header, [&](std::string_view line) { resolver.addLine(line, headerFile, ++number); });
     for (const std::string& define : defines)
-        resolver.addLine("#define " + define, headerFile, ++number);
+        resolver.addLine(define[0] == '#' ? define : "#define " + define, headerFile, ++number);
     resolver.add(file, {});
     return std::move(resolver.source);
 }
 
 std::string constant(const std::string& name, bool value) {
     return concat(name, value ? " true" : " false");
+}
+
+std::string requireExtension(const std::string& name) {
+    return concat("#extension ", name, " : require");
 }
 
 const char* header330() {

@@ -40,10 +40,10 @@ struct ShaderSource {
     Location firstLocation(const std::string& driverLog) const;
 };
 
-// `defines`: "NAME" or "NAME value". `generated`: files that exist only in memory, by the name they are
-// included under; they go before files on disk, `file` itself among them. `arrays`: what #pragma reads,
-// writes and updates name (gpu/array_table.h), or null. Error, located: no such file; a condition that
-// Conditions does not know; no such array.
+// `defines`: "NAME", "NAME value" or requireExtension(). `generated`: files that exist only in memory, by the
+// name they are included under; they go before files on disk, `file` itself among them. `arrays`: what
+// #pragma reads, writes and updates name (gpu/array_table.h), or null. Error, located: no such file; a
+// condition that Conditions does not know; no such array.
 ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
                            const std::map<std::string, std::string>& generated, const std::string& header,
@@ -52,6 +52,9 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
 // A define, true or false, that an ordinary `if` asks for: its branch that is never taken is read by the
 // compiler, so that a misspelt name is an error, and folded away.
 std::string constant(const std::string& name, bool value);
+
+// An extension that the shader needs, among its defines.
+std::string requireExtension(const std::string& name);
 
 const char* header330();  // #version 330 core
 const char* header430();  // #version 430 core, the first with compute shaders

@@ -14,8 +14,8 @@ glm::dvec3 towardsSun(const Light& light) {
     return length > 0 ? -light.direction / length : glm::dvec3(0, 1, 0);
 }
 
-Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadows& shadows,
-                   const WaterLight* water, bool blends)
+Lighting::Lighting(const gpu::ContextInfo& info, const Scene& scene, const BoundingSphere& crown,
+                   const Shadows& shadows, const WaterLight* water, bool blends, int samples)
     : towardsSun_(shoal::towardsSun(scene.light)),
       sun_(scene.light.color * scene.light.intensity),
       zenith_(scene.sky.zenith * scene.sky.intensity),
@@ -25,13 +25,18 @@ Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadow
       crown_(crown),
       shadows_(shadows),
       water_(water),
-      blends_(blends) {}
+      blends_(blends),
+      gathers_(info.shadowGather),
+      lateDepth_(info.software && info.stencilExport && std::min(samples, info.maxSamples) > 1) {}
 
 std::vector<std::string> Lighting::defines() const {
     std::vector<std::string> out = toneDefines();
     out.push_back(gpu::constant("SHADOWS", shadows_.near != nullptr));
     out.push_back(gpu::constant("WIDE_SHADOWS", shadows_.wide != nullptr));
     if (water_ != nullptr) out.emplace_back("WATER");
+    if (gathers_) out.insert(out.end(), {gpu::requireExtension("GL_ARB_gpu_shader5"), "GATHERS"});
+    if (lateDepth_)
+        out.insert(out.end(), {gpu::requireExtension("GL_ARB_shader_stencil_export"), "LATE_DEPTH"});
     return out;
 }
 
@@ -70,21 +75,23 @@ void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
     if (shadows_.near == nullptr) return;
     program.texture("shadowMap", shadows_.near->depth());
     program.set("toShadow", shadows_.near->toTexture(eye.origin));
-    program.set("shadowFilter", shadows_.near->filter());
+    program.set("shadowOffsets", shadows_.near->offsets());
     if (shadows_.wide == nullptr) return;
     program.texture("wideShadowMap", shadows_.wide->depth());
     program.set("toWideShadow", shadows_.wide->toTexture(eye.origin));
-    program.set("wideShadowFilter", shadows_.wide->filter());
+    program.set("wideShadowOffsets", shadows_.wide->offsets());
 }
 
 // ---- The shadow map
 
-ShadowMap::ShadowMap(gpu::Context& context, int size, const Box& casters, const glm::dvec3& towardsSun)
-    : depth_(context, gpu::Format::depth24, size, size, "shadow map"),
-      framebuffer_(context, {}, &depth_, "shadow map"),
-      origin_(0.5 * (casters.low + casters.high)) {
-    depth_.setShadowCompare();
+// The sun is not a point, but half a degree wide: an edge as far away as the map reaches is blurred by 4
+// thousandths of that, one a few metres up by centimetres.
+static double blurOf(double reach, double texel) {
+    return std::clamp(std::min(0.004 * reach, 0.02), 2 * texel, 5 * texel);
+}
 
+ShadowMap::ShadowMap(gpu::Context& context, int most, const Box& casters, const glm::dvec3& towardsSun)
+    : origin_(0.5 * (casters.low + casters.high)) {
     const glm::dvec3 side = std::abs(towardsSun.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(side, towardsSun));
     const glm::dvec3 above = glm::cross(towardsSun, right);
@@ -100,7 +107,16 @@ ShadowMap::ShadowMap(gpu::Context& context, int size, const Box& casters, const 
     }
     const double reach = 1.15 * std::max({half.x, half.y, 1e-3}), depth = 1.15 * std::max(half.z, 1e-3);
     toClip_ = glm::mat4(glm::ortho(-reach, reach, -reach, reach, -depth, depth) * glm::dmat4(toLight));
+
+    // The 16 texels of render/light.glsl blur by a standard deviation of 0.91 of them, a disc by half its
+    // radius.
+    const double blur = blurOf(reach, 2 * reach / most);
+    const int size = std::min(most, int(std::lround(2 * reach * 0.91 / (0.5 * blur))));
+    depth_ = gpu::Texture(context, gpu::Format::depth24, size, size, "shadow map");
+    framebuffer_ = gpu::Framebuffer(context, {}, &depth_, "shadow map");
+    depth_.setShadowCompare();
     pixelsPerMeter_ = float(size / (2 * reach));
+    blur_ = float(blur);
 }
 
 bool ShadowMap::covers(const Box& box) const {
@@ -135,13 +151,8 @@ glm::mat4 ShadowMap::toTexture(const Origin& eye) const {
     return glm::mat4(toUnit * glm::dmat4(toClip_) * fromEye);
 }
 
-glm::vec3 ShadowMap::filter() const {
-    const float texel = 1 / pixelsPerMeter_;
-    // The sun is not a point, but half a degree wide: an edge as far away as the map reaches is blurred by 4
-    // thousandths of that, one a few metres up by centimetres, as far as 16 taps reach.
-    const float reach = 0.5f * texel * float(depth_.width());
-    const float radius = std::clamp(std::min(0.004f * reach, 0.02f), 2 * texel, 5 * texel);
-    return {radius / (texel * float(depth_.width())), radius, 0.5f * texel};
+glm::vec2 ShadowMap::offsets() const {
+    return {blur_, 0.5f / pixelsPerMeter_};
 }
 
 }  // namespace shoal

@@ -36,7 +36,8 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan);
 // Depth as the sun sees it: an orthographic map around a box.
 class ShadowMap {
   public:
-    ShadowMap(gpu::Context& context, int size, const Box& casters, const glm::dvec3& towardsSun);
+    // At most so many texels a side: as many as the blur of its edges asks for.
+    ShadowMap(gpu::Context& context, int most, const Box& casters, const glm::dvec3& towardsSun);
 
     void begin() const;  // binds and clears; OpenGL's state for casters
     void end() const;
@@ -52,8 +53,8 @@ class ShadowMap {
 
     // From places relative to the eye to texture coordinates and depth in [0, 1].
     glm::mat4 toTexture(const Origin& eye) const;
-    // x: filter radius in texture units; y: offset along the normal and z: towards the sun, in m.
-    glm::vec3 filter() const;
+    // What lies so far from a caster is not its shadow, m. x: along the normal; y: towards the sun.
+    glm::vec2 offsets() const;
 
   private:
     gpu::Texture depth_;
@@ -62,6 +63,7 @@ class ShadowMap {
     glm::mat4 toClip_{1};
     glm::mat3 toScene_{1};
     float pixelsPerMeter_ = 1;
+    float blur_ = 0;  // m
 };
 
 // What the sun casts. Borrows.
@@ -73,10 +75,10 @@ struct Shadows {
 
 class Lighting {
   public:
-    // `water` may be null: all is in the air. `blends`: something is
-    // blended, so light is stored as it is. Borrows.
-    Lighting(const Scene& scene, const BoundingSphere& crown, const Shadows& shadows, const WaterLight* water,
-             bool blends);
+    // `water` may be null: all is in the air. `blends`: something is blended, so light is stored as it is.
+    // `samples`: of a pixel. Borrows.
+    Lighting(const gpu::ContextInfo& info, const Scene& scene, const BoundingSphere& crown,
+             const Shadows& shadows, const WaterLight* water, bool blends, int samples);
 
     std::vector<std::string> defines() const;      // those of programs that light surfaces, and of the sky's
     std::vector<std::string> toneDefines() const;  // those of the picture
@@ -94,6 +96,7 @@ class Lighting {
     Shadows shadows_;
     const WaterLight* water_;
     bool blends_;
+    bool gathers_, lateDepth_;  // render/light.glsl
 };
 
 // Unit. Straight down where the direction is zero.

@@ -34,7 +34,7 @@ namespace shoal {
 struct RenderOptions {
     int width = 1280, height = 720;  // pixels
     int samples = 4;                 // a pixel; reduced to what the context has
-    int shadowSize = 2048;           // texels a side
+    int shadowSize = 2048;           // texels a side, at most
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
     int slabs = 128;    // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model

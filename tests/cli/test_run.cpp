@@ -338,3 +338,24 @@ TEST_CASE("a video, or the program that it needs", "[cli]") {
     CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"out.mp4"});
     CHECK(readFile(video).substr(4, 4) == "ftyp");
 }
+
+// Mesa alone takes notice of the variable.
+TEST_CASE("a picture is the same on drivers that gather no texels and write no stencil values", "[cli]") {
+    const Scratch scratch;
+    const auto picture = [&](const std::string& folder, const Surroundings& surroundings) {
+        const Outcome out = runShoal({"run", "hello", "--headless", "--frames", "1", "--size", "320x180",
+                                      "--capture", scratch.path(folder)},
+                                     surroundings);
+        INFO(out.err);
+        REQUIRE(out.code == 0);
+        return readPng(scratch.path(folder) + "/frame-00001.png").pixels;
+    };
+    const Surroundings without{
+        .environment = {{"MESA_EXTENSION_OVERRIDE", "-GL_ARB_gpu_shader5 -GL_ARB_shader_stencil_export"}}};
+    const std::vector<uint8_t> a = picture("with", {}), b = picture("without", without);
+    REQUIRE(a.size() == b.size());
+    int most = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(int(a[i]) - int(b[i])));
+    CHECK(most <= 2);
+}
