@@ -387,6 +387,9 @@ def write_tube_faces(obj, numbers, apex, metres):
         obj.add_triangle(a, c, d)
     for a, b in zip(rings[-1], rings[-1][1:]):
         obj.add_triangle(a, b, (apex, obj.uv(0.5, metres[-1])))
+    # The foot lies within the parent, or the ground, and is closed, so that nothing is seen from behind.
+    for a, b in zip(rings[0][1:], rings[0][2:sides]):
+        obj.add_triangle(rings[0][0], b, a)
 
 
 def grow_tree():

@@ -68,24 +68,29 @@ vec4 gradientNoiseSlope(vec3 p, uint seed)
     vec3 corner = floor(p);
     vec3 f = p - corner;
     ivec3 cell = ivec3(corner);
-    vec3 w1 = vec3(fade(f.x), fade(f.y), fade(f.z));
-    vec3 s1 = vec3(fadeSlope(f.x), fadeSlope(f.y), fadeSlope(f.z));
-    vec4 sum = vec4(0.0f);
+    vec3 w = vec3(fade(f.x), fade(f.y), fade(f.z));
+    vec4 corners[8];  // a corner's gradient, and in w its value here
     for (int i = 0; i < 8; ++i) {
         ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z), seed));
-        vec4 gradient = gradientOf(hash.x);
+        vec4 g = gradientOf(hash.x);
         vec3 d = f - vec3(side);
-        float wx = side.x == 1 ? w1.x : 1.0f - w1.x;
-        float wy = side.y == 1 ? w1.y : 1.0f - w1.y;
-        float wz = side.z == 1 ? w1.z : 1.0f - w1.z;
-        float value = gradient.x * d.x + gradient.y * d.y + gradient.z * d.z;
-        float weight = wx * wy * wz;
-        sum += vec4((side.x == 1 ? s1.x : -s1.x) * wy * wz * value + weight * gradient.x,
-                    wx * (side.y == 1 ? s1.y : -s1.y) * wz * value + weight * gradient.y,
-                    wx * wy * (side.z == 1 ? s1.z : -s1.z) * value + weight * gradient.z, weight * value);
+        corners[i] = vec4(g.x, g.y, g.z, g.x * d.x + g.y * d.y + g.z * d.z);
     }
-    return sum;
+    // Along x, then y, then z: what lies between two, and the difference of their values, by which the weight's slope counts.
+    vec4 x0 = corners[0] + w.x * (corners[1] - corners[0]);
+    vec4 x1 = corners[2] + w.x * (corners[3] - corners[2]);
+    vec4 x2 = corners[4] + w.x * (corners[5] - corners[4]);
+    vec4 x3 = corners[6] + w.x * (corners[7] - corners[6]);
+    vec4 y0 = x0 + w.y * (x1 - x0);
+    vec4 y1 = x2 + w.y * (x3 - x2);
+    float low = corners[1].w - corners[0].w + w.y * (corners[3].w - corners[2].w - corners[1].w + corners[0].w);
+    float high = corners[5].w - corners[4].w + w.y * (corners[7].w - corners[6].w - corners[5].w + corners[4].w);
+    float acrossX = low + w.z * (high - low);
+    float acrossY = x1.w - x0.w + w.z * (x3.w - x2.w - x1.w + x0.w);
+    float acrossZ = y1.w - y0.w;
+    return y0 + w.z * (y1 - y0) +
+           vec4(fadeSlope(f.x) * acrossX, fadeSlope(f.y) * acrossY, fadeSlope(f.z) * acrossZ, 0.0f);
 }
 
 // Curl of a vector potential psi(p, t) of three 4D gradient noises; component k of psi takes its gradients

@@ -101,8 +101,19 @@ static gpu::Texture imageTexture(gpu::Context& context, Image image, bool srgb, 
     return texture;
 }
 
+static std::optional<Box> boundsIfClosed(const Mesh& mesh) {
+    const bool opaque = std::all_of(
+        mesh.materials.begin(), mesh.materials.end(),
+        [](const SurfaceMaterial& material) { return material.alpha == SurfaceMaterial::Alpha::opaque; });
+    if (!opaque) return std::nullopt;
+    const SurfaceReport report = examineSurface(mesh);
+    if (!report.closed() || report.volume <= 0) return std::nullopt;
+    return Box{mesh.low, mesh.high};
+}
+
 SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Model& model) {
     Drawn drawn;
+    if (context.info().software) drawn.closed = boundsIfClosed(model.mesh);
     drawn.detail = float(model.grain);
     drawn.stony = model.grainOf == GrainKind::stone;
     const Mesh& mesh = model.mesh;
@@ -306,8 +317,16 @@ void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& 
     submit(surface, look);
 }
 
+// Whether the near plane, too, lies outside of a box, in a view of up to 140 degrees across corners.
+static bool outside(const Box& box, const Eye& eye) {
+    const glm::dvec3 x = eye.origin.exact, margin(3.0 * eye.nearest);
+    return glm::any(glm::lessThan(x, box.low - margin)) || glm::any(glm::greaterThan(x, box.high + margin));
+}
+
 void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time, bool multisampled) const {
-    for (const Drawn& surface : surfaces_)
+    for (const Drawn& surface : surfaces_) {
+        const bool culls = surface.closed && outside(*surface.closed, eye);
+        if (culls) glEnable(GL_CULL_FACE);
         for (const Look& look : surface.looks) {
             if (blended(look.material)) continue;
             const bool covers = multisampled && cutOut(look.material);
@@ -315,6 +334,8 @@ void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time, 
             drawLook(surface, look, eye, lighting, time);
             if (covers) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
         }
+        if (culls) glDisable(GL_CULL_FACE);
+    }
 }
 
 void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double time,

@@ -61,6 +61,8 @@ class SurfaceDrawer {
         gpu::VertexArray array;
         std::optional<PlaneCollider> plane;  // the mesh follows the eye along it
         std::optional<ColliderPath> path;    // of a collider that moves
+        std::optional<Box> closed;  // of an opaque model that is closed: bounds, from outside which its back
+                                    // is never seen. Looked for only where hidden triangles cost much
     };
 
     static Drawn drawnModel(gpu::Context& context, const Model& model);

@@ -109,10 +109,11 @@ std::vector<Edit> allEdits(JsonValue root) {
     const Description& keys = describe(static_cast<const Group*>(nullptr));
     for (JsonValue& group : memberOf(root, "groups").items) {
         std::vector<Edit> inside;
-        addEdits(keys, group, group.find("name")->text, root, inside);
+        const std::string name = group.find("name")->text;  // not of the object that is edited
+        addEdits(keys, group, name, root, inside);
         for (Edit& edit : inside)
             for (const char* key : liveKeys)
-                if (edit.path.starts_with(concat(group.find("name")->text, ".", key))) {
+                if (edit.path.starts_with(concat(name, ".", key))) {
                     out.push_back(std::move(edit));
                     break;
                 }
