@@ -3,6 +3,7 @@
 
 #include "gl/render_scene.h"
 #include "support/catch.h"
+#include "support/solids.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -309,4 +310,28 @@ TEST_CASE("grain is of earth or of stone", "[render][material]") {
     CHECK(changed(plain, earth, 3).count > 500);
     CHECK(changed(plain, stone, 3).count > 500);
     CHECK(changed(earth, stone, 3).count > 500);
+}
+
+// A CPU rasteriser leaves out the back of what is closed. The triangle that opens it is never in sight.
+TEST_CASE("a closed model is seen from outside and from inside", "[render][material]") {
+    for (const double eye : {3.0, 0.2}) {
+        Image images[2];
+        for (const bool open : {false, true}) {
+            Model box;
+            box.name = "box";
+            addBox(box.mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+            if (open)
+                addTriangles(box.mesh, "flap", {{0, 0, 0.45}, {0.1, 0, 0.45}, {0, 0.1, 0.45}}, {{0, 1, 2}});
+            completeMesh(box.mesh);
+            Scene scene = sceneOf({box});
+            scene.camera.eye = {0, 0, eye};
+            scene.camera.target = {0, 0, -1};
+            images[open] = show(scene).image;
+            scene.models.clear();
+            scene.colliders.clear();
+            CAPTURE(eye, open);
+            CHECK(changed(images[open], show(scene).image, 30).count > 1500);
+        }
+        CHECK(changed(images[0], images[1], 2).count <= 2);
+    }
 }
