@@ -139,7 +139,7 @@ TEST_CASE("with bdf2-newton pins are released and molecules are born", "[newton]
     run(explicitly, 20);
     CHECK(finite(newton.snapshot(0)));
     const auto released = [](const Simulation& simulation) {
-        const auto& pins = simulation.save().groups[0].released;
+        const auto pins = simulation.save().groups[0].released;
         return std::count(pins.begin(), pins.end(), true);
     };
     CHECK(released(newton) > 5);
