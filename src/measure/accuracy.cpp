@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace shoal::measure {
 
@@ -15,13 +16,8 @@ constexpr double shareOfError = 0.01;    // of the smallest error: the reference
 // By which share of the time that is given a stage ends.
 constexpr double byProbes = 0.2, byExtra = 0.3, byReference = 0.65, byErrors = 0.8;
 
-// One method: its few molecules for the error, its many for the time.
-struct Curve {
-    Method method;
-    std::unique_ptr<MethodRunner> few, many;
-    FrameCost fewCost, manyCost;
+struct Curve : MethodOnBoth {
     double fewStep = 0, manyStep = 0;  // s, that setting another step takes
-    std::string refused;               // why: at every step, or there was no time to make it ready
     std::vector<AccuracyPoint> points;
     std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
     double best = 1e30;                       // smallest error
@@ -46,11 +42,8 @@ class Sweep {
     }
 
     AccuracyReport run() {
-        for (Curve* curve : curves()) {
-            if (reference_ && limit_.over(byProbes))
-                leaveOut(*curve);
-            else
-                probe(*curve);
+        for (const Method& method : methodsInTurn(few_, options_.solvers, options_.samplings)) {
+            probe(curves_.emplace_back(), method);
             tell(0);
         }
         if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
@@ -82,71 +75,22 @@ class Sweep {
     }
 
   private:
-    // Returns all in the order in which they are made ready: every solver once before any twice, those of
-    // second order and more first, which get there soonest.
-    std::vector<Curve*> curves() {
-        std::vector<SolverKind> kinds = options_.solvers;
-        if (kinds.empty())
-            for (const Solver& solver : solvers())
-                kinds.push_back(solver.kind);
-        std::vector<FieldSampling> samplings = options_.samplings;
-        if (samplings.empty()) samplings = samplingsThatDiffer(few_);
-        for (const SolverKind kind : kinds) {
-            for (const FieldSampling sampling : samplings) {
-                Curve& curve = curves_.emplace_back();
-                curve.method = {kind, sampling};
-            }
-        }
-        std::vector<Curve*> out;
-        for (Curve& curve : curves_)
-            out.push_back(&curve);
-        const auto turn = [&](const Curve* curve) {
-            return std::pair(curve->method.sampling != samplings.front(),
-                             solver(curve->method.solver).order <= 1);
-        };
-        std::stable_sort(out.begin(), out.end(),
-                         [&](const Curve* a, const Curve* b) { return turn(a) < turn(b); });
-        return out;
-    }
-
-    void leaveOut(Curve& curve) {
-        add(curve, ladder_.front()).why = curve.refused = "there was no time to make it ready";
+    void probe(Curve& curve, const Method& method) {
+        curve.method = method;
         curve.done = true;
-        ++unready_;
-    }
-
-    // Compiles the method and looks at what a frame costs.
-    void probe(Curve& curve) {
-        curve.few = std::make_unique<MethodRunner>(few_, curve.method, device_);
-        curve.many = std::make_unique<MethodRunner>(many_, curve.method, device_);
-        std::optional<Step> first;
-        for (const Step& step : ladder_) {
-            curve.refused = curve.few->refusal(step);
-            if (!curve.refused.empty()) continue;
-            first = step;
-            break;
-        }
-        if (first) {
-            try {
-                curve.few->set(*first);
-                curve.many->set(*first);
-            } catch (const Error& error) {
-                curve.refused = error.what();
-            }
-        }
-        if (!curve.refused.empty()) {
-            refuse(curve, ladder_.front(), curve.refused);
-            curve.done = true;
+        if (reference_ && limit_.over(byProbes)) {
+            add(curve, ladder_.front()).why = curve.refused = "there was no time to make it ready";
+            ++unready_;
             return;
         }
-        pinRasteriserThreads();
+        static_cast<MethodOnBoth&>(curve) = makeReady(method, few_, many_, ladder_, device_);
+        if (!curve.refused.empty()) return refuse(curve, ladder_.front(), curve.refused);
+        curve.done = false;
         curve.few->restart();
         if (!reference_)
             reference_ =
                 std::make_unique<ExactEnds>(few_, curve.few->simulation().plan(), curve.few->snapshots(),
                                             out_.duration, device_.cores, options_.molecules);
-        curve.fewCost = frameCost(*curve.few);
-        curve.manyCost = frameCost(*curve.many);
         curve.fewStep = secondsOfStep(*curve.few, curve.fewCost);
         curve.manyStep = secondsOfStep(*curve.many, curve.manyCost);
         out_.path = curve.few->simulation().path().path;
@@ -390,13 +334,12 @@ class Sweep {
 
     AccuracyReport finish() {
         tellWhatWasCut();
-        for (Curve& curve : curves_) {
-            std::stable_sort(curve.points.begin(), curve.points.end(),
-                             [](const AccuracyPoint& a, const AccuracyPoint& b) {
-                                 return a.stepsPerSecond < b.stepsPerSecond;
-                             });
+        for (const Curve& curve : curves_)
             out_.points.insert(out_.points.end(), curve.points.begin(), curve.points.end());
-        }
+        std::stable_sort(
+            out_.points.begin(), out_.points.end(), [](const AccuracyPoint& a, const AccuracyPoint& b) {
+                return std::tie(a.method, a.stepsPerSecond) < std::tie(b.method, b.stepsPerSecond);
+            });
         markFront(out_.points);
         device_.context->checkErrors("measure");
         out_.seconds = secondsSince(start_);

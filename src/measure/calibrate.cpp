@@ -31,29 +31,27 @@ class Search {
         many_ = withMolecules(scene, software ? manyOnCpu : manyOnGpu);
         all_ = withMolecules(scene, sampleMolecules);
         frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
+        ladder_ = options.substeps ? std::vector{Step{*options.substeps, 1}} : stepLadder(1);
     }
 
     Calibration run() {
-        std::vector<SolverKind> kinds = options_.solvers;
-        if (kinds.empty())
-            for (const Solver& solver : solvers())
-                kinds.push_back(solver.kind);
-        std::vector<FieldSampling> samplings = options_.samplings;
-        if (samplings.empty()) samplings = samplingsThatDiffer(few_);
-        // of second order and more first: they get there soonest
-        std::stable_partition(kinds.begin(), kinds.end(),
-                              [](SolverKind kind) { return solver(kind).order > 1; });
-        for (const SolverKind kind : kinds)
-            if (runs_.empty() || !late(readying)) probe({kind, samplings.front()});
+        std::vector<Method> others;  // that read fields less often than the first sampling does
+        const std::vector<Method> methods = methodsInTurn(few_, options_.solvers, options_.samplings);
+        for (const Method& method : methods) {
+            if (method.sampling != methods.front().sampling)
+                others.push_back(method);
+            else if (runs_.empty() || !late(readying))
+                probe(method);
+        }
         searchAll();
-        const Run* ahead = cheapest();
-        const double best = ahead == nullptr ? 0 : ahead->candidate.cost;
-        const size_t firsts = runs_.size();
-        for (size_t i = 0; i < firsts; ++i) {
-            const Candidate candidate = runs_[i].candidate;
-            if (!candidate.reached || candidate.cost > worthSampling * best) continue;
-            for (size_t s = 1; s < samplings.size() && !late(); ++s)
-                probe({candidate.method.solver, samplings[s]});
+        const Run* best = cheapest();
+        const double mostCost = best == nullptr ? 0 : worthSampling * best->candidate.cost;
+        for (const Method& method : others) {
+            const bool worth = std::any_of(runs_.begin(), runs_.end(), [&](const Run& run) {
+                return run.method.solver == method.solver && run.candidate.reached &&
+                       run.candidate.cost <= mostCost;
+            });
+            if (worth && !late()) probe(method);
         }
         searchAll();
         timeAgain();
@@ -67,51 +65,22 @@ class Search {
         if (options_.tell) options_.tell(what);
     }
 
-    struct Run {
+    struct Run : MethodOnBoth {
         Candidate candidate;
-        std::unique_ptr<MethodRunner> few, many, all;  // all: of the sample
+        std::unique_ptr<MethodRunner> all;  // of the sample
         SampleError sample;
-        FrameCost frame;
         bool searched = false;
     };
 
     void probe(const Method& method) {
         tell(concat("making ", name(method.solver), " ready"));
-        Run& run = runs_.emplace_back();
+        Run& run = runs_.emplace_back(Run{makeReady(method, few_, many_, ladder_, device_), {}, {}, {}, {}});
         run.candidate.method = method;
-        run.few = std::make_unique<MethodRunner>(few_, method, device_);
-        const int first = leastSubsteps(run);
-        if (first == 0) {
-            run.searched = true;
-            return;
-        }
-        try {
-            run.few->set({first, 1});
-            run.many = std::make_unique<MethodRunner>(many_, method, device_);
-            pinRasteriserThreads();
-            run.many->set({first, 1});
-            run.frame = frameCost(*run.many);
-        } catch (const Error& error) {
-            run.candidate.why = concat("refused: ", error.what());
-            run.searched = true;
-            return;
-        }
-        if (!reference_) solveReference(*run.few);
-    }
-
-    // 0 and candidate.why: none is accepted.
-    int leastSubsteps(Run& run) const {
-        for (const int substeps : ladder()) {
-            run.candidate.why = run.few->refusal({substeps, 1});
-            if (run.candidate.why.empty()) return substeps;
-        }
-        run.candidate.why = concat("refused: ", run.candidate.why);
-        return 0;
-    }
-
-    std::vector<int> ladder() const {
-        if (options_.substeps) return {*options_.substeps};
-        return {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, maxSubsteps};
+        run.searched = !run.refused.empty();
+        if (run.searched)
+            run.candidate.why = concat("refused: ", run.refused);
+        else if (!reference_)
+            solveReference(*run.few);
     }
 
     // Where the motion is chaotic or too stiff over the whole time, over a shorter one.
@@ -155,28 +124,28 @@ class Search {
 
     // Cheapest substeps first, so that the dear ones have a good bound to beat.
     void searchAll() {
-        std::vector<size_t> order;
-        for (size_t i = 0; i < runs_.size(); ++i)
-            if (!runs_[i].searched) order.push_back(i);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](size_t a, size_t b) { return runs_[a].frame.each < runs_[b].frame.each; });
         // of second order and more first: they get there soonest
-        std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-            const auto high = [&](size_t i) { return solver(runs_[i].candidate.method.solver).order > 1; };
-            return high(a) > high(b);
-        });
-        for (const size_t i : order)
-            search(runs_[i]);
+        const auto turn = [](const Run* run) {
+            return std::pair(solver(run->method.solver).order <= 1, run->manyCost.each);
+        };
+        std::vector<Run*> order;
+        for (Run& run : runs_)
+            if (!run.searched) order.push_back(&run);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](const Run* a, const Run* b) { return turn(a) < turn(b); });
+        for (Run* run : order)
+            search(*run);
     }
 
     void search(Run& run) {
         run.searched = true;
-        tell(concat("trying ", name(run.candidate.method.solver)));
+        tell(concat("trying ", name(run.method.solver)));
         int failed = 0, good = 0;
         double least = std::numeric_limits<double>::infinity();
         int passed = 0;  // steps without a smaller error
-        for (const int substeps : ladder()) {
-            if (!run.few->refusal({substeps, 1}).empty()) {
+        for (const Step& step : ladder_) {
+            const int substeps = step.substeps;
+            if (!run.few->refusal(step).empty()) {
                 failed = substeps;
                 continue;
             }
@@ -228,7 +197,7 @@ class Search {
     }
 
     SampleError errorOfSample(Run& run, int substeps) {
-        if (!run.all) run.all = std::make_unique<MethodRunner>(all_, run.candidate.method, device_);
+        if (!run.all) run.all = std::make_unique<MethodRunner>(all_, run.method, device_);
         run.all->set({substeps, 1});
         run.all->run(frames_);
         const std::vector<Snapshot> ends = run.all->snapshots();
@@ -278,7 +247,7 @@ class Search {
         Run* best = cheapest();
         if (best == nullptr) return true;
         Candidate& ahead = best->candidate;
-        double expected = perVertex(run, run.frame.seconds({substeps, 1}));
+        double expected = perVertex(run, run.manyCost.seconds({substeps, 1}));
         if (!losesAgain(
                 expected, ahead.cost, [&] { return costAt(run, substeps); },
                 [&] { return costAt(*best, ahead.substeps); }))
@@ -379,6 +348,7 @@ class Search {
     int frames_ = 60;
     std::unique_ptr<ExactEnds> reference_;
     std::unique_ptr<MoleculeSample> sample_;
+    std::vector<Step> ladder_;
     std::vector<Run> runs_;
 };
 

@@ -89,7 +89,7 @@ void apply(const Calibration& calibration, Scene& scene);
 
 // The files of results.
 
-// 16 hexadecimal digits of everything that a calibration depends on. `plan`: of the scene, with a solver that
+// 32 hexadecimal digits of everything that a calibration depends on. `plan`: of the scene, with a solver that
 // takes every step.
 std::string calibrationKey(const Plan& plan, const CalibrationOptions& options, const AccuracyDevice& device);
 
@@ -125,12 +125,13 @@ class MoleculeSample {
   private:
     struct SampledMolecule {
         size_t group = 0;
-        int index = 0;                   // in the group
-        double size = 1;                 // m
-        double change = 1e30;            // of its end when the step was halved; 0: the reference has it
-        std::unique_ptr<ExactEnds> own;  // its reference
-        std::optional<size_t> inCore;    // its place there
-        bool given = false;              // asked for a reference, which it has or cannot have
+        int index = 0;                     // in the group
+        double size = 1;                   // m
+        double change = 1e30;              // of its end when the step was halved; 0: the reference has it
+        const ExactEnds* exact = nullptr;  // the reference that has it,
+        size_t place = 0;                  // and where among its molecules
+        bool asked = false;                // for a reference of its own, which it has or cannot have
+        bool given() const { return exact != nullptr || asked; }
     };
     bool settleBy(SolverKind kind);
     std::vector<double> distances(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) const;
@@ -148,6 +149,7 @@ class MoleculeSample {
     std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
     std::string by_;
     std::vector<SampledMolecule> molecules_;
+    std::vector<std::unique_ptr<ExactEnds>> own_;  // references of single molecules
     int asked_ = 0;
 };
 

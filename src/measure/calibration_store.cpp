@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/cache_folder.h"
 #include "core/contract.h"
 #include "core/file.h"
 #include "core/json_build.h"
@@ -13,50 +14,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int layoutVersion = 3;
+constexpr int layoutVersion = 4;
 
-// FNV-1a over the bytes of what it is given.
-class Hash {
+// The bytes of all that is added, by their number where that may differ.
+class Content {
   public:
-    void bytes(const void* data, size_t size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        for (size_t i = 0; i < size; ++i)
-            value_ = (value_ ^ bytes[i]) * 1099511628211ull;
+    template <typename... Values>
+    void add(const Values&... values) {
+        (addOne(values), ...);
     }
-    void add(const std::string& text) {
-        add(double(text.size()));
-        bytes(text.data(), text.size());
-    }
-    void add(double number) { bytes(&number, sizeof number); }
-    template <typename T>
-    void add(const std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        add(double(values.size()));
-        if (!values.empty()) bytes(values.data(), values.size() * sizeof(T));
-    }
-    std::string digits() const { return formatted("%016llx", static_cast<unsigned long long>(value_)); }
+    std::string key() const { return contentKey(bytes_); }
 
   private:
-    uint64_t value_ = 14695981039346656037ull;
+    void addOne(double number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
+    void addOne(const std::string& text) {
+        addOne(double(text.size()));
+        bytes_ += text;
+    }
+    template <typename T>
+    void addOne(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        addOne(double(values.size()));
+        bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    }
+
+    std::string bytes_;
 };
 
-void addGroup(Hash& hash, const GroupPlan& group) {
-    for (const double number :
-         {double(group.count), double(group.vertexCount), group.drag.normal, group.drag.tangent,
-          group.stiffness, group.damping, double(group.needs.pins), double(group.needs.collide)})
-        hash.add(number);
-    hash.add(group.start.positions);
-    hash.add(group.start.velocities);
-    hash.add(group.start.anchors);
-    hash.add(group.constants.scales);
-    hash.add(group.constants.phases);
-    for (const std::string* text :
-         {&group.kernel.molecule, &group.kernel.forces, &group.kernel.sweeps, &group.kernel.load})
-        hash.add(*text);
-}
-
 // The shaders that a kernel is made of.
-void addShaders(Hash& hash, const std::string& root) {
+void addShaders(Content& content, const std::string& root) {
     for (const char* folder : {"fused", "passes", "physics", "solver", "state", "step"}) {
         EXPECTS(fs::is_directory(fs::path(root) / folder));
         std::vector<fs::path> files;
@@ -65,17 +51,8 @@ void addShaders(Hash& hash, const std::string& root) {
             if (entry.is_regular_file(none)) files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files)
-            hash.add(readFile(file));
+            content.add(readFile(file));
     }
-}
-
-void addDevice(Hash& hash, const AccuracyDevice& device) {
-    const gpu::ContextInfo& info = device.context->info();
-    for (const std::string& text : {info.renderer, info.vendor, info.version})
-        hash.add(text);
-    for (const double number :
-         {double(info.kind), double(device.path), double(device.lanes), double(device.inPlace)})
-        hash.add(number);
 }
 
 JsonValue asJson(const Candidate& candidate) {
@@ -122,28 +99,22 @@ fs::path fileOf(const std::string& folder, const std::string& key) {
 
 std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
                            const AccuracyDevice& device) {
-    Hash hash;
-    hash.add(double(layoutVersion));
+    Content content;
+    content.add(layoutVersion, plan.frameRate, plan.gravity.x, plan.gravity.y, plan.gravity.z, plan.topology,
+                plan.fields.source, plan.colliders.source, plan.fields.parameters, plan.samples);
     for (const GroupPlan& group : plan.groups)
-        addGroup(hash, group);
-    for (const double number :
-         {plan.frameRate, plan.gravity.x, plan.gravity.y, plan.gravity.z, options.error, options.duration,
-          double(options.molecules), double(options.substeps.value_or(0))})
-        hash.add(number);
-    hash.add(plan.topology);
-    hash.add(plan.fields.source);
-    hash.add(plan.colliders.source);
-    hash.add(plan.fields.parameters);
-    for (const GroupPlan& group : plan.groups)
-        hash.add(group.colliderParameters);
-    hash.add(plan.samples);
-    hash.add(options.solvers);
-    hash.add(options.samplings);
-    hash.add(options.version);
-    hash.add(options.processor);
-    addDevice(hash, device);
-    addShaders(hash, device.context->shaders());
-    return hash.digits();
+        content.add(group.count, group.vertexCount, group.drag.normal, group.drag.tangent, group.stiffness,
+                    group.damping, group.needs.pins, group.needs.collide, group.start.positions,
+                    group.start.velocities, group.start.anchors, group.constants.scales,
+                    group.constants.phases, group.kernel.molecule, group.kernel.forces, group.kernel.sweeps,
+                    group.kernel.load, group.colliderParameters);
+    content.add(options.error, options.duration, options.molecules, options.substeps.value_or(0),
+                options.solvers, options.samplings, options.version, options.processor);
+    const gpu::ContextInfo& info = device.context->info();
+    content.add(info.renderer, info.vendor, info.version, int(info.kind), int(device.path), int(device.lanes),
+                device.inPlace);
+    addShaders(content, device.context->shaders());
+    return content.key();
 }
 
 JsonValue asJson(const Calibration& calibration) {

@@ -17,6 +17,20 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
     return {std::begin(allSamplings), std::end(allSamplings)};
 }
 
+std::vector<Method> methodsInTurn(const Scene& scene, std::vector<SolverKind> kinds,
+                                  std::vector<FieldSampling> samplings) {
+    if (kinds.empty())
+        for (const Solver& solver : solvers())
+            kinds.push_back(solver.kind);
+    std::stable_partition(kinds.begin(), kinds.end(), [](SolverKind kind) { return solver(kind).order > 1; });
+    if (samplings.empty()) samplings = samplingsThatDiffer(scene);
+    std::vector<Method> out;
+    for (const FieldSampling sampling : samplings)
+        for (const SolverKind kind : kinds)
+            out.push_back({kind, sampling});
+    return out;
+}
+
 std::string name(const Method& method) {
     return concat(name(method.solver), ", ", name(method.sampling));
 }
@@ -121,6 +135,31 @@ FrameCost frameCost(MethodRunner& runner) {
     const double a = runner.secondsOfFrame(few), b = runner.secondsOfFrame(more);
     const double each = std::max(0.0, (b - a) / (more.substeps - few.substeps));
     return {std::max(0.0, a - each * few.substeps), each};
+}
+
+MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many,
+                       const std::vector<Step>& steps, const AccuracyDevice& device) {
+    MethodOnBoth out{method,
+                     std::make_unique<MethodRunner>(few, method, device),
+                     std::make_unique<MethodRunner>(many, method, device),
+                     {},
+                     {},
+                     {}};
+    for (const Step& step : steps) {
+        out.refused = out.few->refusal(step);
+        if (!out.refused.empty()) continue;
+        try {
+            out.few->set(step);
+            out.many->set(step);
+            pinRasteriserThreads();
+            out.fewCost = frameCost(*out.few);
+            out.manyCost = frameCost(*out.many);
+        } catch (const Error& error) {
+            out.refused = error.what();
+        }
+        break;
+    }
+    return out;
 }
 
 }  // namespace shoal::measure

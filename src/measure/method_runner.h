@@ -19,15 +19,19 @@ namespace shoal::measure {
 inline constexpr FieldSampling allSamplings[] = {FieldSampling::vertexSubstep, FieldSampling::vertexFrame,
                                                  FieldSampling::moleculeFrame};
 
-// Fields differ between samplings unless none is read or all are the same everywhere and always.
-std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
-
 struct Method {
     SolverKind solver = SolverKind::leapfrog;
     FieldSampling sampling = FieldSampling::vertexSubstep;
     auto operator<=>(const Method&) const = default;
 };
 std::string name(const Method& method);  // "leapfrog, vertexFrame"
+
+// Fields differ between samplings unless none is read or all are the same everywhere and always.
+std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
+// All methods of these solvers and samplings; empty: all, and all that differ. Every solver comes once before
+// any twice, those of second order and more first, which get there soonest.
+std::vector<Method> methodsInTurn(const Scene& scene, std::vector<SolverKind> solvers,
+                                  std::vector<FieldSampling> samplings);
 
 // A frame of the scene is run as `split` shorter ones of `substeps` each.
 struct Step {
@@ -88,6 +92,17 @@ struct FrameCost {
     double seconds(const Step& step) const { return base + each * step.substeps; }
 };
 FrameCost frameCost(MethodRunner& runner);
+
+// A method on a few molecules, for its error, and on many, for its time.
+struct MethodOnBoth {
+    Method method;
+    std::unique_ptr<MethodRunner> few, many;
+    FrameCost fewCost, manyCost;
+    std::string refused;  // why it takes no step; empty: it is ready
+};
+// Compiles the method for the first of the steps that it takes, and looks at what its frames cost.
+MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many,
+                       const std::vector<Step>& steps, const AccuracyDevice& device);
 
 // Times of many methods and steps, in turn, round after round, so that a machine whose speed drifts drifts
 // for all alike.

@@ -76,9 +76,11 @@ bool MoleculeSample::settleBy(SolverKind kind) {
                 const double size = scene_.groups[plan.groups[g].index].molecule.size() *
                                     double(plan.groups[g].constants.scales[size_t(m)]);
                 molecule.size = size > 0 ? size : 1;
-                molecule.inCore = core_.placeOf(g, m);
-                molecule.given = molecule.inCore.has_value();
-                if (molecule.given) molecule.change = 0;
+                if (const std::optional<size_t> place = core_.placeOf(g, m)) {
+                    molecule.exact = &core_;
+                    molecule.place = *place;
+                    molecule.change = 0;
+                }
             }
         }
         runner_ = std::move(runner);
@@ -96,13 +98,13 @@ bool MoleculeSample::settleBy(SolverKind kind) {
             const auto sum = [&](const auto& value) {
                 double out = 0;
                 for (size_t i = 0; i < molecules_.size(); ++i)
-                    if (!molecules_[i].given) out += std::isfinite(value(i)) ? std::min(value(i), 1.0) : 1;
+                    if (!molecules_[i].given()) out += std::isfinite(value(i)) ? std::min(value(i), 1.0) : 1;
                 return out;
             };
             if (sum([&](size_t i) { return change[i]; }) <
                 sum([&](size_t i) { return molecules_[i].change; })) {
                 for (size_t i = 0; i < molecules_.size(); ++i)
-                    if (!molecules_[i].given)
+                    if (!molecules_[i].given())
                         molecules_[i].change = std::isfinite(change[i]) ? change[i] : 1e30;
                 ends_ = fine;
                 by_ = concat(shoal::name(kind), " with ", substeps, " substeps");
@@ -119,28 +121,25 @@ bool MoleculeSample::settleBy(SolverKind kind) {
 }
 
 void MoleculeSample::ask(SampledMolecule& molecule) {
-    if (molecule.given || asked_ >= mostAsked || limit_.over()) return;
-    molecule.given = true;
+    if (molecule.given() || asked_ >= mostAsked || limit_.over()) return;
+    molecule.asked = true;
     ++asked_;
     const std::vector<std::pair<size_t, int>> which = {{molecule.group, molecule.index}};
     auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
                                            frames_ / scene_.frameRate, device_.cores, which);
     const Settled settled = own->solve(0.01 * error_, std::min(referenceSeconds, limit_.left()));
-    if (settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_)) {
-        molecule.own = std::move(own);
-        molecule.change = 0;
-    } else {
-        molecule.change = 1e30;
-    }
+    const bool near =
+        settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_);
+    molecule.change = near ? 0 : 1e30;
+    if (near) molecule.exact = own_.emplace_back(std::move(own)).get();
 }
 
 std::string MoleculeSample::how() const {
-    const auto exact =
-        std::count_if(molecules_.begin(), molecules_.end(),
-                      [](const SampledMolecule& molecule) { return molecule.inCore || molecule.own; });
-    const auto others = std::count_if(
-        molecules_.begin(), molecules_.end(),
-        [&](const SampledMolecule& molecule) { return !molecule.inCore && !molecule.own && told(molecule); });
+    int exact = 0, others = 0;
+    for (const SampledMolecule& molecule : molecules_) {
+        exact += molecule.exact != nullptr;
+        others += molecule.exact == nullptr && told(molecule);
+    }
     if (others == 0) return concat(exact, " by the reference");
     return concat(exact, " by the reference, ", others, " by ", by_);
 }
@@ -150,13 +149,14 @@ SampleError MoleculeSample::errorOf(const std::vector<Snapshot>& ends) {
     const std::vector<double> apart = ends_.empty() ? std::vector<double>() : distances(ends, ends_);
     const auto errorOf = [&](size_t i) {
         const SampledMolecule& molecule = molecules_[i];
-        return molecule.inCore ? inCore[*molecule.inCore]
-               : molecule.own  ? molecule.own->errorOf(ends).worst
-                               : apart[i];
+        return molecule.exact == &core_    ? inCore[molecule.place]
+               : molecule.exact != nullptr ? molecule.exact->errorOf(ends).worst
+                                           : apart[i];
     };
     std::vector<size_t> far;
     for (size_t i = 0; i < molecules_.size(); ++i)
-        if (!molecules_[i].given && told(molecules_[i]) && errorOf(i) > mostWorst * error_) far.push_back(i);
+        if (!molecules_[i].given() && told(molecules_[i]) && errorOf(i) > mostWorst * error_)
+            far.push_back(i);
     if (int(far.size()) + asked_ <= mostAsked)
         for (const size_t i : far)
             ask(molecules_[i]);
