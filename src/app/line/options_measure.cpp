@@ -10,7 +10,7 @@ namespace shoal::app {
 
 namespace {
 
-// The benchmarks of `shoal bench` beside the simulation's frames, each in a file bench_<word>.cpp.
+// The benchmarks of `shoal bench` beside the simulation's frames.
 const std::vector<std::string> benchWords = {"sort", "collide", "particles", "school"};
 constexpr int (*benchCommands[])(const Options&) = {benchSortCommand, benchCollideCommand,
                                                     benchParticlesCommand, benchSchoolCommand};

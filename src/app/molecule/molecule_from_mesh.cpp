@@ -6,7 +6,6 @@
 
 #include "app/line/commands.h"
 #include "app/molecule/molecule_report.h"
-#include "app/run/trial.h"
 #include "author/shapes.h"
 #include "core/error.h"
 #include "core/file.h"

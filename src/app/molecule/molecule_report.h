@@ -1,4 +1,4 @@
-// The sheet of a molecule, and the page of one that was made.
+// What is told of a molecule: the sheet of any, the trial and the page of one that was made.
 #pragma once
 
 #include <string>
@@ -9,6 +9,19 @@
 #include "molecule/molecule.h"
 
 namespace shoal::app {
+
+// What came of two seconds as in a scene, before the molecule is written: what does not run is not kept.
+struct Trial {
+    static constexpr int frames = 120;  // of 1/60 s
+    std::string solver;                 // as "auto" chose it
+    int substeps = 0;                   // a frame
+    double change = 0;                  // of a spring's length by that length, the most
+    double speed = 0;                   // m/s at the end, the fastest vertex
+    std::string untried;                // why it could not run here; empty: it ran
+};
+// Lets one molecule fall by half its size onto a floor; its pins hold. It takes the default substeps of a
+// scene, or more where it needs more. Error: it does not run, and why.
+Trial tryOut(const Molecule& molecule, const Options& options);
 
 // The rest shape and the slowest motions (molecule_show.cpp). Pixels.
 Image moleculeSheet(gpu::Context& context, const Molecule& molecule, int width, int height);

@@ -2,8 +2,7 @@
 
 #include "app/line/commands.h"
 #include "app/measure/measure.h"
-#include "app/run/explain_cost.h"
-#include "app/run/explain_passes.h"
+#include "app/run/explain.h"
 #include "core/data_paths.h"
 #include "core/json.h"
 #include "simulate/fused_kernel.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/run/explain_cost.h"
+#include "app/run/explain.h"
 #include "core/cache_folder.h"
 #include "core/data_paths.h"
 #include "core/table.h"
@@ -86,13 +86,13 @@ std::string asText(const SceneCost& all) {
     out += tableText(kernelColumns, asJson(all).find("kernels")->items);
     return out +
            "\nBytes, fetches and shared memory (of a workgroup, bytes) follow from the layout. Operations "
-           "are counted "
-           "from\nmolecule, solver, fields and colliders, about right within a factor of two; contacts that "
            "are "
-           "found,\nforces, births, steering and contact between molecules are not counted. Registers are an "
-           "estimate, of the\nvectors that a lane keeps; occupancy follows from them for 65,536 registers, "
-           "2,048 "
-           "lanes and 100 KiB of\nshared memory a multiprocessor.\n";
+           "counted from\nmolecule, solver, fields and colliders, about right within a factor of two; "
+           "contacts "
+           "that are found,\nforces, births, steering and contact between molecules are not counted. "
+           "Registers "
+           "are an estimate, of the\nvectors that a lane keeps; occupancy follows from them for 65,536 "
+           "registers, 2,048 lanes and 100 KiB of\nshared memory a multiprocessor.\n";
 }
 
 JsonValue asJson(const SceneCost& all) {

@@ -1,4 +1,4 @@
-#include "app/run/explain_passes.h"
+#include "app/run/explain.h"
 
 #include "core/printable.h"
 #include "render/renderer.h"

@@ -1,4 +1,4 @@
-#include "app/run/trial.h"
+#include "app/molecule/molecule_report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The report of `shoal explain --cost`.
+// What `shoal explain` measures on a device: --cost and --passes.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,7 @@
 #include "bench/machine.h"
 #include "bench/rates.h"
 #include "compile/cost.h"
+#include "gpu/frame_record.h"
 
 namespace shoal::app {
 
@@ -24,5 +25,15 @@ struct SceneCost {
 SceneCost sceneCost(const Options& options, const Loaded& loaded);
 std::string asText(const SceneCost& cost);
 JsonValue asJson(const SceneCost& cost);
+
+struct FramePasses {
+    bench::MeasuredOn machine;
+    std::vector<gpu::PassRow> rows;
+};
+
+// Makes a context, and runs and draws the scene's second frame there: the first also makes what is made once.
+FramePasses framePasses(const Options& options, const Loaded& loaded);
+std::string asText(const FramePasses& passes);
+JsonValue asJson(const FramePasses& passes);
 
 }  // namespace shoal::app
