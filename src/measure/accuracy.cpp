@@ -20,8 +20,7 @@ struct Curve : MethodOnBoth {
     double fewStep = 0, manyStep = 0;  // s, that setting another step takes
     std::vector<AccuracyPoint> points;
     std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
-    double best = 1e30;                       // smallest error
-    int sinceBest = 0;
+    SmallestError smallest;
     bool done = false;
 };
 
@@ -58,10 +57,11 @@ class Sweep {
             extras = options_.extra(most);
             if (limit_.over(byExtra)) cut_.push_back("the choice of a method ended early");
         }
-        stage("reference", secondsOfReference());
+        stage("reference", std::min(reference_->secondsToSolve(), limit_.left(byReference)));
         solveReference();
         stage("errors", 0);
-        tellWhatIsLeft();
+        const double all = secondsOfErrorsAndTimes(), left = std::min(all, limit_.left());
+        progress_.left(left, left / all);
         for (const Step& step : ladder_)
             for (Curve& curve : curves_)
                 level(curve, step);
@@ -118,19 +118,11 @@ class Sweep {
     }
 
     void estimate() {
-        const double sweep = secondsOfErrors() + secondsOfTimes();
+        const double sweep = secondsOfErrorsAndTimes();
         if (options_.extra)
-            expectedOfExtra_ =
-                std::min(reference_->secondsToSolve(3) + 0.1 * secondsOfErrors(), limit_.left(byExtra));
+            expectedOfExtra_ = std::min(reference_->secondsToSolve(3) + 0.05 * sweep, limit_.left(byExtra));
         expected_ = std::min(sweep + expectedOfExtra_ + reference_->secondsToSolve(), limit_.left());
         progress_.estimate(expected_);
-    }
-
-    // Reports the seconds of the rest, and the share of all errors and times that fits into them.
-    void tellWhatIsLeft() {
-        const double all = secondsOfErrors() + secondsOfTimes();
-        const double left = std::min(all, limit_.left());
-        progress_.left(left, left / all);
     }
 
     // Ends the stage before, whatever it took, as what it was expected to take.
@@ -166,29 +158,23 @@ class Sweep {
             out_.tooStiff = concat("--seconds leaves too little time: ", out_.tooStiff);
     }
 
-    double secondsOfReference() const {
-        return std::min(reference_->secondsToSolve(), limit_.left(byReference));
-    }
-
     double secondsOf(const Curve& curve, const Step& step) const {
         return curve.fewStep + curve.fewCost.seconds(step) * (frames_ * step.split + 1);
-    }
-    double secondsOfErrors() const {
-        double out = 0;
-        for (const Curve& curve : curves_)
-            for (const Step& step : ladder_)
-                if (!curve.done && step.split == 1) out += secondsOf(curve, step);
-        return out;
     }
     static Contender contender(Curve& curve, const Step& step) {
         return {curve.many.get(), step, curve.manyCost.seconds(step), curve.manyStep};
     }
-    double secondsOfTimes() {
-        std::vector<Contender> all;
-        for (Curve& curve : curves_)
-            for (const Step& step : ladder_)
-                if (!curve.done && step.split == 1) all.push_back(contender(curve, step));
-        return leastSeconds(all);
+    double secondsOfErrorsAndTimes() {
+        double errors = 0;
+        std::vector<Contender> timed;
+        for (Curve& curve : curves_) {
+            for (const Step& step : ladder_) {
+                if (curve.done || step.split > 1) continue;
+                errors += secondsOf(curve, step);
+                timed.push_back(contender(curve, step));
+            }
+        }
+        return errors + leastSeconds(timed);
     }
 
     AccuracyPoint& add(Curve& curve, const Step& step) {
@@ -208,7 +194,7 @@ class Sweep {
     void level(Curve& curve, const Step& step) {
         if (curve.done) return;
         // beyond the most substeps of a frame only who needs them
-        if (step.split > 1 && (curve.best <= options_.enough || !out_.hasErrors())) {
+        if (step.split > 1 && (curve.smallest.error <= options_.enough || !out_.hasErrors())) {
             curve.done = true;
             return;
         }
@@ -245,17 +231,7 @@ class Sweep {
         point.outcome = Outcome::measured;
         point.error = reference_->errorOf(ends);
         curve.ends.back() = std::move(ends);
-        follow(curve, point.error->total);
-    }
-
-    // A method has passed its smallest error when three finer steps did not better it.
-    static void follow(Curve& curve, double error) {
-        if (error < 0.95 * curve.best) {
-            curve.best = error;
-            curve.sinceBest = 0;
-        } else if (++curve.sinceBest >= 3 && curve.best < 0.1) {
-            curve.done = true;
-        }
+        if (curve.smallest.isPassedBy(point.error->total)) curve.done = true;
     }
 
     void extra(const Method& method, const Step& step) {
@@ -272,7 +248,7 @@ class Sweep {
         if (!out_.hasErrors()) return;
         double smallest = 1e30;
         for (const Curve& curve : curves_)
-            smallest = std::min(smallest, curve.best);
+            smallest = std::min(smallest, curve.smallest.error);
         // what ran out of time once would do so again
         const bool near = reference_->error() <= shareOfError * smallest;
         if (!near && settled_ == Settled::yes)

@@ -86,24 +86,20 @@ std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::op
         all.push_back(secondsOfVisit(contender));
     const std::vector<bool> fits = thoseThatFit(all, seconds);
     std::vector<size_t> places;
-    for (size_t i = 0; i < contenders.size(); ++i) {
-        if (!fits[i]) continue;
-        places.push_back(i);
-        cost.push_back(all[i]);
-    }
+    for (size_t i = 0; i < contenders.size(); ++i)
+        if (fits[i]) places.push_back(i);
     // the cheap ones first: what a busy machine has no time for is the dearest
     std::stable_sort(places.begin(), places.end(), [&](size_t a, size_t b) { return all[a] < all[b]; });
-    std::sort(cost.begin(), cost.end());
+    for (const size_t i : places)
+        cost.push_back(all[i]);
     std::vector<std::vector<double>> samples(contenders.size());
     double done = 0;
     visitInTurn(cost, seconds, steadySeconds, [&](size_t i) {
         samples[places[i]].push_back(sample(contenders[places[i]]));
         tell(done += cost[i]);
     });
-    std::vector<Spread> out;
-    out.reserve(samples.size());
-    for (const std::vector<double>& times : samples)
-        out.push_back(spreadOf(times));
+    std::vector<Spread> out(samples.size());
+    std::transform(samples.begin(), samples.end(), out.begin(), spreadOf);
     return out;
 }
 

@@ -24,7 +24,7 @@ constexpr int manyOnGpu = 16384, manyOnCpu = 2048;
 class Search {
   public:
     Search(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device)
-        : options_(options), device_(device) {
+        : options_(options), device_(device), place_{scene.file, 0, 0, {}} {
         const bool software = device.context->info().software;
         // what a lane does costs a GPU nothing more in its neighbours
         few_ = withMolecules(scene, software ? std::max(fewOnCpu, options.molecules) : fewOnGpu);
@@ -108,18 +108,13 @@ class Search {
 
     [[noreturn]] void refuseWithoutReference(Settled settled) const {
         if (settled != Settled::chaotic && late(readying)) refuseForTime(nullptr);
-        throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
-    }
-
-    std::string noReference(Settled settled) const {
-        const std::string& why = reference_->why();
+        std::string what = "the motion is chaotic, so that no error can be given";
         if (settled == Settled::tooStiff)
-            return concat("--error: the scene is too stiff for a reference in ",
-                          MoleculeSample::referenceSeconds, " s, so that no error can be given: ", why);
+            what = concat("the scene is too stiff for a reference in ", MoleculeSample::referenceSeconds,
+                          " s, so that no error can be given");
         if (settled == Settled::roughly)
-            return concat("--error: no reference is near enough to tell an error of ", options_.error, ": ",
-                          why);
-        return concat("--error: the motion is chaotic, so that no error can be given: ", why);
+            what = concat("no reference is near enough to tell an error of ", options_.error);
+        throw Error(place_, concat("--error: ", what, ": ", reference_->why()));
     }
 
     // Cheapest substeps first, so that the dear ones have a good bound to beat.
@@ -141,8 +136,7 @@ class Search {
         run.searched = true;
         tell(concat("trying ", name(run.method.solver)));
         int failed = 0, good = 0;
-        double least = std::numeric_limits<double>::infinity();
-        int passed = 0;  // steps without a smaller error
+        SmallestError smallest;
         for (const Step& step : ladder_) {
             const int substeps = step.substeps;
             if (!run.few->refusal(step).empty()) {
@@ -160,12 +154,10 @@ class Search {
                 break;
             }
             failed = substeps;
-            passed = error < 0.95 * least ? 0 : passed + 1;
-            least = std::min(least, error);
-            if (passed >= 3 && least < 0.1) break;
+            if (smallest.isPassedBy(error)) break;
         }
         if (good == 0) {
-            run.candidate.why = std::isfinite(least)
+            run.candidate.why = std::isfinite(smallest.error)
                                     ? concat("does not get there: at best ", *run.candidate.error)
                                     : "blows up at every step";
             return;
@@ -322,28 +314,28 @@ class Search {
         if (nearest != nullptr)
             found = concat("; the nearest by then is ", name(nearest->method.solver), " with ",
                            nearest->substeps, " substeps a frame and ", *nearest->error);
-        throw Error(Location{few_.file, 0, 0, {}},
+        throw Error(place_,
                     concat("--error ", options_.error, ": no method was found to hold it in ",
                            *options_.seconds, " s: give it more time with ", options_.limitOption, found));
     }
 
     [[noreturn]] void refuse(const Candidate* nearest) const {
-        const Location place{few_.file, 0, 0, {}};
         if (late()) refuseForTime(nearest);
         if (nearest == nullptr)
-            throw Error(place, concat("--error ", options_.error, ": no method can run this scene: ",
-                                      runs_.empty() ? "none is left" : runs_.front().candidate.why));
-        throw Error(place, concat("--error ", options_.error,
-                                  " is out of reach for a sample of its molecules: the nearest is ",
-                                  name(nearest->method.solver), " with ", nearest->substeps,
-                                  " substeps a frame, fields by ", name(nearest->method.sampling),
-                                  ", which has an error of ", *nearest->error,
-                                  nearest->worst ? concat(" RMS and ", *nearest->worst, " at worst") : ""));
+            throw Error(place_, concat("--error ", options_.error, ": no method can run this scene: ",
+                                       runs_.empty() ? "none is left" : runs_.front().candidate.why));
+        throw Error(place_, concat("--error ", options_.error,
+                                   " is out of reach for a sample of its molecules: the nearest is ",
+                                   name(nearest->method.solver), " with ", nearest->substeps,
+                                   " substeps a frame, fields by ", name(nearest->method.sampling),
+                                   ", which has an error of ", *nearest->error,
+                                   nearest->worst ? concat(" RMS and ", *nearest->worst, " at worst") : ""));
     }
 
     const CalibrationOptions& options_;
     const AccuracyDevice& device_;
     const TimeLimit limit_{options_.seconds};
+    const Location place_;
     Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
     std::unique_ptr<ExactEnds> reference_;

@@ -6,7 +6,7 @@
 //
 // The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
 // on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,
-// the kernels, the driver, the processor, the version. SampledMolecule that ran out of time is not kept.
+// the kernels, the driver, the processor, the version. A search that ran out of time is not kept.
 #pragma once
 
 #include <functional>

@@ -2,8 +2,10 @@
 // simulation serves them all.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +94,18 @@ struct FrameCost {
     double seconds(const Step& step) const { return base + each * step.substeps; }
 };
 FrameCost frameCost(MethodRunner& runner);
+
+// The smallest error of a method's steps until now.
+struct SmallestError {
+    double error = std::numeric_limits<double>::infinity();
+    int since = 0;  // steps that did not better it
+    // With the error of a finer step: whether it is below 0.1, and three finer steps did not better it.
+    bool isPassedBy(double finer) {
+        since = finer < 0.95 * error ? 0 : since + 1;
+        error = std::min(error, finer);
+        return since >= 3 && error < 0.1;
+    }
+};
 
 // A method on a few molecules, for its error, and on many, for its time.
 struct MethodOnBoth {

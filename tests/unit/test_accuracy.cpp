@@ -1,4 +1,4 @@
-// The pure parts of `shoal measure`: the front, what an error costs, the ladder of steps.
+// The pure parts of `shoal measure`: the front, the ladder of steps, what is claimed and when time ends.
 #include <algorithm>
 #include <cmath>
 
@@ -59,30 +59,6 @@ TEST_CASE("the Pareto front", "[accuracy]") {
     }
 }
 
-TEST_CASE("what an error costs is interpolated between logarithms", "[accuracy]") {
-    const std::vector<Sample> curve = curveOf(twoCurves(), {SolverKind::leapfrog, {}});
-    REQUIRE(curve.size() == 11);
-    const std::optional<AtError> between = costAt(curve, 1e-3);
-    REQUIRE(between);
-    CHECK_FALSE(between->atLargestStep);
-    CHECK(between->time == Approx(2 * std::sqrt(1e3)));
-    CHECK(between->stepsPerSecond == Approx(60 * std::sqrt(1e3)));
-    // a point itself, as far as logarithms are exact
-    CHECK(costAt(curve, 1.0 / 16)->time == Approx(8));
-    // the largest step will do; nothing will
-    CHECK(costAt(curve, 2)->atLargestStep);
-    CHECK(costAt(curve, 2)->time == 2);
-    CHECK_FALSE(costAt(curve, 1e-9));
-    CHECK_FALSE(costAt({}, 1));
-    // of two crossings the cheaper: floats may spoil fine steps
-    const std::vector<Sample> wavy = {{1, 1, 1}, {2, 0.1, 2}, {4, 1, 4}, {8, 0.1, 8}};
-    CHECK(costAt(wavy, 0.1)->time == Approx(2));
-    // an error of 0 is no logarithm
-    std::vector<AccuracyPoint> exact = {point(SolverKind::leapfrog, 1, 1, 0.1),
-                                        point(SolverKind::leapfrog, 2, 2, 0)};
-    CHECK(std::isfinite(costAt(curveOf(exact, exact[0].method), 1e-3)->time));
-}
-
 TEST_CASE("a method is left out only when it is dearer each time that both are timed in turn", "[accuracy]") {
     int timed = 0;
     const auto always = [&](double seconds) {
@@ -125,14 +101,6 @@ TEST_CASE("an error is claimed of a sample that shows what one of a hundred mole
     CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 3}.holds(1e-3));
     // of few molecules none may be above
     CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 20, .above = 1}.holds(1e-3));
-}
-
-TEST_CASE("the best field sampling of a solver", "[accuracy]") {
-    std::vector<AccuracyPoint> points = twoCurves();
-    points.push_back(point(SolverKind::leapfrog, 1, 1.5, 1e-4, FieldSampling::vertexFrame));
-    CHECK(bestOf(points, SolverKind::leapfrog, 1e-3)->method.sampling == FieldSampling::vertexFrame);
-    CHECK(bestOf(points, SolverKind::leapfrog, 1e-5)->method.sampling == FieldSampling::vertexSubstep);
-    CHECK_FALSE(bestOf(points, SolverKind::rk4, 1));
 }
 
 TEST_CASE("the ladder of steps", "[accuracy]") {

@@ -1,5 +1,6 @@
-// `shoal bench` with a word: contact against a CPU baseline and what each search finds; point particles beside
-// a loop on the CPU, a share of a quad and the papers; fish that school; the sorts beside what others published.
+// `shoal bench` with a word: contact against a CPU baseline and what each search finds; point particles
+// beside a loop on the CPU, a share of a quad and the papers; fish that school; the sorts beside what others
+// published.
 #include <algorithm>
 #include <iostream>
 
@@ -37,7 +38,7 @@ CollideCases collideCasesOf(const std::string& only) {
 }
 
 void measureCollisions(const CollideCases& wanted, const Options& options, const BenchDevice& device,
-                const measure::Schedule& schedule, CollideReport& report) {
+                       const measure::Schedule& schedule, CollideReport& report) {
     const Molecule quad = shipped("quad"), point = shipped("point");
     WholeRun run(std::vector<double>(size_t(wanted.molecules) + size_t(wanted.searches),
                                      report.secondsAGroup * 1.2 + 2));

@@ -85,29 +85,6 @@ void addChosen(std::ostringstream& out, const MeasureReport& report) {
     out << asText(*report.chosen);
 }
 
-void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
-    const std::vector<AccuracyPoint>& points = report.accuracy.points;
-    const std::optional<BestOf> euler = bestOf(points, SolverKind::euler, report.target);
-    std::vector<JsonValue> rows;
-    for (const Solver& solver : solvers()) {
-        const std::optional<BestOf> best = bestOf(points, solver.kind, report.target);
-        if (!best) continue;
-        rows.push_back(object(key("solver", solver.name), key("seconds", best->cost.time),
-                              key("fields", name(best->method.sampling)),
-                              key("steps", best->cost.stepsPerSecond),
-                              key("largest", best->cost.atLargestStep)));
-        if (euler) append(rows.back(), key("faster", euler->cost.time / best->cost.time));
-    }
-    static constexpr Column columns[] = {
-        {"solver", "solver", -16},       {"seconds", "ns", 10, nullptr, 1e9},
-        {"fields", "fields", 15},        {"steps", "steps/s", 9, "%.0f"},
-        {"largest", "largest step", 14}, {"faster", "as fast as euler", 18, "%.2g x"}};
-    if (!rows.empty())
-        out << "\nan error of " << report.target
-            << " of these molecules costs, ns per vertex and simulated second\n"
-            << tableText(columns, rows);
-}
-
 // Returns what a scene's file says to run as this point did.
 std::string sceneLine(const AccuracyPoint& point, double frameRate) {
     JsonValue line = object(key("solver", object(key("method", shoal::name(point.method.solver)),
@@ -253,7 +230,6 @@ std::string asText(const MeasureReport& report, bool all) {
         for (size_t i = 0; i < rows.size(); ++i)
             if (!isToldLater(report.accuracy.points, i)) told.push_back(std::move(rows[i]));
         out << tableText(pointColumns, told, "method");
-        addSpeedUps(out, report);
     }
     if (all || front.empty() || report.isTargetAsked) addChosen(out, report);
     if (!report.accuracy.notes.empty()) out << "\n";
