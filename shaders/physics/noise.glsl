@@ -62,35 +62,52 @@ float gradientNoise(vec3 p, uvec3 first, uint seed)
     return sum;
 }
 
-// The slope of gradientNoise(p, uvec3(0u), seed) along x, y and z, which is exact, and in w its value.
-vec4 gradientNoiseSlope(vec3 p, uint seed)
+// `value` with the sign that the highest bit of `word` says.
+float signedBy(float value, uint word)
 {
-    vec3 corner = floor(p);
-    vec3 f = p - corner;
+    return uintBitsToFloat(floatBitsToUint(value) ^ (word & 2147483648u));
+}
+
+// What a corner adds to simplexNoiseSlope(), at `d` from it. Its gradient is one of eight, of ones with the signs of bits.
+vec4 simplexCorner(vec3 d, uint word)
+{
+    uint hash = (word ^ (word >> 15u)) * 2146121005u;
+    hash = hash ^ (hash >> 13u);
+    float near = max(0.5f - dot(d, d), 0.0f);
+    float square = near * near;
+    float cube = near * square;
+    float ramp = signedBy(d.x, hash) + signedBy(d.y, hash << 7u) + signedBy(d.z, hash << 14u);
+    float back = -6.0f * square * ramp;
+    return vec4(signedBy(cube, hash) + back * d.x, signedBy(cube, hash << 7u) + back * d.y,
+                signedBy(cube, hash << 14u) + back * d.z, cube * ramp);
+}
+
+// Simplex noise [Perlin 2001]: its slope along x, y and z, which is exact, and in w its value. Its RMS and that of its slope
+// are those of gradientNoise(). It has four corners instead of eight, for what only has to look like noise.
+vec4 simplexNoiseSlope(vec3 place, uint seed)
+{
+    const float finer = 0.63f;
+    const float strength = 11.5f;
+    const uint stepX = 2654435769u;
+    const uint stepY = 2246822507u;
+    const uint stepZ = 3266489909u;
+    vec3 p = finer * place;
+    vec3 corner = floor(p + (p.x + p.y + p.z) / 3.0f);
+    vec3 d = p - corner + (corner.x + corner.y + corner.z) / 6.0f;
     ivec3 cell = ivec3(corner);
-    vec3 w = vec3(fade(f.x), fade(f.y), fade(f.z));
-    vec4 corners[8];  // a corner's gradient, and in w its value here
-    for (int i = 0; i < 8; ++i) {
-        ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z), seed));
-        vec4 g = gradientOf(hash.x);
-        vec3 d = f - vec3(side);
-        corners[i] = vec4(g.x, g.y, g.z, g.x * d.x + g.y * d.y + g.z * d.z);
-    }
-    // Along x, then y, then z: what lies between two, and the difference of their values, by which the weight's slope counts.
-    vec4 x0 = corners[0] + w.x * (corners[1] - corners[0]);
-    vec4 x1 = corners[2] + w.x * (corners[3] - corners[2]);
-    vec4 x2 = corners[4] + w.x * (corners[5] - corners[4]);
-    vec4 x3 = corners[6] + w.x * (corners[7] - corners[6]);
-    vec4 y0 = x0 + w.y * (x1 - x0);
-    vec4 y1 = x2 + w.y * (x3 - x2);
-    float low = corners[1].w - corners[0].w + w.y * (corners[3].w - corners[2].w - corners[1].w + corners[0].w);
-    float high = corners[5].w - corners[4].w + w.y * (corners[7].w - corners[6].w - corners[5].w + corners[4].w);
-    float acrossX = low + w.z * (high - low);
-    float acrossY = x1.w - x0.w + w.z * (x3.w - x2.w - x1.w + x0.w);
-    float acrossZ = y1.w - y0.w;
-    return y0 + w.z * (y1 - y0) +
-           vec4(fadeSlope(f.x) * acrossX, fadeSlope(f.y) * acrossY, fadeSlope(f.z) * acrossZ, 0.0f);
+    uint word = uint(cell.x) * stepX + uint(cell.y) * stepY + uint(cell.z) * stepZ + seed;
+    // The corners between the first and the opposite one are one step, and two, along the largest components.
+    bool xy = d.x >= d.y;
+    bool yz = d.y >= d.z;
+    bool xz = d.x >= d.z;
+    bvec3 firstStep = bvec3(xy && xz, !xy && yz, !xz && !yz);
+    bvec3 bothSteps = bvec3(xy || xz, !xy || yz, !xz || !yz);
+    uint firstWord = word + (firstStep.x ? stepX : 0u) + (firstStep.y ? stepY : 0u) + (firstStep.z ? stepZ : 0u);
+    uint bothWord = word + (bothSteps.x ? stepX : 0u) + (bothSteps.y ? stepY : 0u) + (bothSteps.z ? stepZ : 0u);
+    vec4 sum = simplexCorner(d, word) + simplexCorner(d - vec3(firstStep) + 1.0f / 6.0f, firstWord) +
+               simplexCorner(d - vec3(bothSteps) + 1.0f / 3.0f, bothWord) +
+               simplexCorner(d - 0.5f, word + stepX + stepY + stepZ);
+    return strength * vec4(finer * sum.x, finer * sum.y, finer * sum.z, sum.w);
 }
 
 // Curl of a vector potential psi(p, t) of three 4D gradient noises; component k of psi takes its gradients

@@ -15,7 +15,7 @@ vec4 octave(vec3 p, vec3 stretch, float wavelength, float footprint, uint seed)
     float weight = 1.0 - smoothstep(0.25, 0.8, footprint / wavelength);
     if (weight <= 0.0) return vec4(0.0);
     vec3 scale = stretch / wavelength;
-    return weight * vec4(scale, 1.0) * gradientNoiseSlope(p * scale, seed);
+    return weight * vec4(scale, 1.0) * simplexNoiseSlope(p * scale, seed);
 }
 
 // `level`: how far the surface faces up, in [0, 1]. What does is mottled like grass and soil; what stands upright is

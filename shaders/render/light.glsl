@@ -107,7 +107,8 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
     float lh = max(dot(sunDirection, halfway), 0.05);
     float d = nh * nh * (a2 - 1.0) + 1.0;
     // Rough surfaces shadow their own grazing reflections [Lagarde 2011].
-    float fresnel = 0.04 + max(0.96 - roughness, 0.0) * pow(1.0 - lh, 5.0);
+    float grazing = (1.0 - lh) * (1.0 - lh);
+    float fresnel = 0.04 + max(0.96 - roughness, 0.0) * grazing * grazing * (1.0 - lh);
     return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
 
@@ -150,7 +151,8 @@ vec3 shade(Surface s)
     if (s.translucency > 0.0) {
         // Light from behind spreads inside a leaf: it wraps around, and glows most towards the sun.
         float behind = max(0.15 - facing, 0.0) / 1.15;
-        float glow = 0.75 + 0.9 * pow(max(-dot(toEye, sunDirection), 0.0), 3.0);
+        float towards = max(-dot(toEye, sunDirection), 0.0);
+        float glow = 0.75 + 0.9 * towards * towards * towards;
         radiance += visible * s.translucency * s.throughColor * sunlight * behind * glow;
         radiance += s.translucency * s.throughColor * ambientAt(s.place, -s.normal) * s.openness * 0.5;
     }

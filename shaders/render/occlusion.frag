@@ -9,8 +9,7 @@ uniform vec2 reach;            // x by the picture's height, y m at the most
 
 out vec4 fragment;
 
-const int samples = 12;
-const float turns = 3.0;  // of the spiral
+const int samples = 12;  // each a quarter of a turn on
 
 // In the eye's directions, m.
 vec3 placeAt(ivec2 texel)
@@ -50,12 +49,13 @@ void main()
     ivec2 low = ivec2(gl_FragCoord.xy) & 1;
     ivec2 high = ivec2(gl_FragCoord.xy) >> 1 & 1;
     int order = 8 * (low.x ^ low.y) + 4 * low.y + 2 * (high.x ^ high.y) + high.y;
-    float turn = 6.2831853 / 16.0 * float(order);
+    float turn = 6.2831853 / 16.0 * (float(order) + 2.0);
+    vec2 arm = vec2(cos(turn), sin(turn));
     float hidden = 0.0;
     for (int i = 0; i < samples; ++i) {
         float share = (float(i) + 0.5) / float(samples);
-        float angle = turn + 6.2831853 * turns * share;
-        vec3 way = placeAt(texel + ivec2(share * pixels * vec2(cos(angle), sin(angle)))) - place;
+        vec3 way = placeAt(texel + ivec2(share * pixels * arm)) - place;
+        arm = vec2(-arm.y, arm.x);
         float squared = dot(way, way);
         float near = max(1.0 - squared / (radius * radius), 0.0);
         float above = max(dot(way, normal) - 0.002 * depth, 0.0);

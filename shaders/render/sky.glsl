@@ -5,6 +5,8 @@ uniform vec3 skyHorizon;
 uniform vec3 skyGround;
 uniform vec3 sunDirection;  // towards the sun, unit
 uniform vec3 sunColor;      // radiance of a white surface that faces the sun
+uniform vec3 ambientAbove;  // light onto a surface that faces up, divided by pi, and down
+uniform vec3 ambientBelow;
 
 // The sky's colours are given as a picture shows them; next to full sunlight a clear sky is this much brighter.
 const float skyBrightness = 1.55;
@@ -20,7 +22,11 @@ vec3 skyGradient(vec3 direction)
 vec3 sunGlow(vec3 direction)
 {
     float towards = max(dot(direction, sunDirection), 0.0);
-    return sunColor * (0.05 * pow(towards, 6.0) + 0.12 * pow(towards, 90.0));
+    float power2 = towards * towards;
+    float power6 = power2 * power2 * power2;
+    float power12 = power6 * power6;
+    float power36 = power12 * power12 * power12;
+    return sunColor * (0.05 * power6 + 0.12 * power36 * power36 * power12 * power6);
 }
 
 vec3 sunDisc(vec3 direction)
@@ -39,9 +45,7 @@ vec3 hazeColor(vec3 direction)
 // Light from all around onto a surface with this normal, divided by pi: the sky above, the ground below.
 vec3 ambientLight(vec3 normal)
 {
-    vec3 above = mix(skyHorizon, skyZenith, 0.55);
-    vec3 below = skyGround * (0.35 + 0.3 * max(sunDirection.y, 0.0) * sunColor);
-    return mix(below, above, 0.5 + 0.5 * normal.y);
+    return mix(ambientBelow, ambientAbove, 0.5 + 0.5 * normal.y);
 }
 
 // Returns the radiance that a mirror reflects from a direction.

@@ -78,8 +78,8 @@ void main()
 
     if (detail > 0.0) {
         // Nearly the long side of a pixel's footprint: more of the short one would leave stripes.
-        float across = length(dFdx(local)), down = length(dFdy(local));
-        float footprint = pow(max(across, down), 0.85) * pow(min(across, down), 0.15);
+        float across = length(dFdx(local)), down = length(dFdy(local)), longer = max(across, down);
+        float footprint = longer * sqrt(sqrt(sqrt(min(across, down) / max(longer, 1e-12))));
         Grain grain = stony ? stoneGrain(local, footprint)
                             : earthGrain(local, smoothstep(0.55, 0.8, n.y), footprint);
         albedo *= max(1.0 + detail * grain.tone, 0.25) * mix(vec3(1.0), grain.tint, detail);

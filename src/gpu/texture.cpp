@@ -19,6 +19,7 @@ struct FormatRow {
 constexpr FormatRow formatTable[] = {
     {Format::rgba32f, "rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
     {Format::rgba16f, "rgba16f", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+    {Format::rg16f, "rg16f", GL_RG16F, GL_RG, GL_HALF_FLOAT, 4},
     {Format::rgba8, "rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     {Format::srgb8a8, "srgb8a8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     {Format::rgba32ui, "rgba32ui", GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},

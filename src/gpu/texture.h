@@ -15,13 +15,15 @@ namespace shoal::gpu {
 
 // Name, and what one texel is in memory when it is uploaded or read back:
 //   rgba32f   4 floats          rgba16f   4 half floats     rgba8, srgb8a8   4 bytes
-//   r32f      1 float           rgb10a2   3 numbers from 0 to 1 in units of 1/1023, 10 bits each
+//   r32f      1 float           rg16f     2 half floats
+//   rgb10a2   3 numbers from 0 to 1 in units of 1/1023, 10 bits each
 //   rgba32ui  4 uint32          rg32ui    2 uint32          r32ui            1 uint32
 //   (these three are read through usampler2D)
 //   depth24   1 uint32 (0..2^32-1 is 0..1)                  depth32f         1 float
 enum class Format {
     rgba32f,
     rgba16f,
+    rg16f,
     rgba8,
     srgb8a8,
     rgba32ui,

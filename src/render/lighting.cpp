@@ -50,6 +50,8 @@ void Lighting::applySun(const gpu::Program& program) const {
     program.set("skyZenith", zenith_);
     program.set("skyHorizon", horizon_);
     program.set("skyGround", ground_);
+    program.set("ambientAbove", glm::mix(horizon_, zenith_, 0.55f));
+    program.set("ambientBelow", ground_ * (0.35f + 0.3f * std::max(towardsSun_.y, 0.0f) * sun_));
 }
 
 void Lighting::applyMedium(const gpu::Program& program, const Eye& eye) const {

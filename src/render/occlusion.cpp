@@ -30,8 +30,8 @@ AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
 void AmbientOcclusion::resize(int width, int height) {
     if (!*this) return;
     const int w = std::max(1, (width + 1) / 2), h = std::max(1, (height + 1) / 2);
-    rough_ = gpu::Texture(*context_, gpu::Format::rgba16f, w, h, "occlusion");
-    smooth_ = gpu::Texture(*context_, gpu::Format::rgba16f, w, h, "occlusion, smoothed");
+    rough_ = gpu::Texture(*context_, gpu::Format::rg16f, w, h, "occlusion");
+    smooth_ = gpu::Texture(*context_, gpu::Format::rg16f, w, h, "occlusion, smoothed");
     roughTarget_ = gpu::Framebuffer(*context_, {&rough_}, nullptr, "occlusion");
     smoothTarget_ = gpu::Framebuffer(*context_, {&smooth_}, nullptr, "occlusion, smoothed");
 }

@@ -80,9 +80,12 @@ PictureWriter::PictureWriter(std::string target, double frameRate, bool many, in
         sole_.emplace(path);
 }
 
-void PictureWriter::write(const Image& picture, int frame) {
+void PictureWriter::write(Image picture, int frame) {
     if (!isVideo(target_)) {
-        writePng(place(frame), picture);
+        const std::filesystem::path file = place(frame);
+        if (writing_.valid()) writing_.get();
+        writing_ =
+            std::async(std::launch::async, [file, picture = std::move(picture)] { writePng(file, picture); });
         return;
     }
     if (!video_)
@@ -99,6 +102,7 @@ std::filesystem::path PictureWriter::place(int frame) {
 }
 
 void PictureWriter::finish() {
+    if (writing_.valid()) writing_.get();
     if (video_) video_->finish();
     video_.reset();
     sole_.reset();

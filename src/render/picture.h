@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,15 +69,16 @@ class PictureWriter {
     PictureWriter(std::string target, double frameRate, bool many = true, int last = 99999,
                   bool alpha = false);
 
-    // Error: disk full, no permission, ffmpeg failed, a video's pictures differ in size, or a frame of folder
+    // A PNG is written on another thread, while the next picture is made. Error: disk full or no permission,
+    // here or for the picture before; ffmpeg failed, a video's pictures differ in size, or a frame of folder
     // or name is beyond the last.
-    void write(const Image& picture, int frame);
+    void write(Image picture, int frame);
     // Where a frame's picture goes that is none for a video, for who writes it. Error: beyond the last.
     std::filesystem::path place(int frame);
-    void finish();  // a video gets its name only now
+    void finish();  // all are written; a video gets its name only now. Error: as write()
 
     const std::string& target() const { return target_; }
-    std::filesystem::path last() const { return last_; }  // written file; empty before the first
+    std::filesystem::path last() const { return last_; }  // file of the last picture; empty before the first
 
   private:
     std::string target_;
@@ -86,6 +88,7 @@ class PictureWriter {
     std::optional<SoleWriter> sole_;
     std::unique_ptr<VideoWriter> video_;
     std::filesystem::path last_;
+    std::future<void> writing_;  // of the last PNG
 };
 
 // "leaves-001.png", or with the first number for which there is no such file or folder.

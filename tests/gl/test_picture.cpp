@@ -79,6 +79,17 @@ TEST_CASE("pictures are written under their number", "[picture]") {
     CHECK_THROWS_AS(few.write(plain(5, 3), 11), Error);
 }
 
+TEST_CASE("a picture that cannot be written is told by the next one, or at the end", "[picture]") {
+    const Scratch scratch;
+    for (const bool last : {false, true}) {
+        PictureWriter writer(scratch.path("out"), 60);
+        std::filesystem::create_directories(scratch.path("out/frame-00001.png/in the way"));
+        writer.write(plain(5, 3), 1);
+        const std::string message = messageOf([&] { last ? writer.finish() : writer.write(plain(5, 3), 2); });
+        CHECK(message.find("frame-00001.png") != std::string::npos);
+    }
+}
+
 TEST_CASE("a video without ffmpeg says what to install", "[picture]") {
     const Scratch scratch;
     const Path path(scratch.path("nothing"));

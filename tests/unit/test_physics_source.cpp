@@ -64,19 +64,30 @@ TEST_CASE("shader noise agrees with the reference on both sides of 0", "[physics
     }
 }
 
-TEST_CASE("the slope of the shader's noise is that of its values", "[physics]") {
-    constexpr double step = 1e-4;
-    for (int i = 0; i < 500; ++i) {
-        const vec3 p = sample(i);
-        const glm::vec4 slope = shader::gradientNoiseSlope(p, 11u);
-        REQUIRE(slope.w == Approx(shader::gradientNoise(p, glm::uvec3(0u), 11u)).margin(1e-6));
+TEST_CASE("simplex noise has the slope of its values, and is as strong and as steep as gradient noise",
+          "[physics]") {
+    constexpr float step = 1.0f / 256;
+    constexpr int count = 20000;
+    double value = 0, steepness = 0, expectedValue = 0, expectedSteepness = 0;
+    for (int i = 0; i < count; ++i) {
+        const vec3 p = sample(i) + vec3(0.37f, 0.61f, 0.13f) * float(i / 512);
+        const glm::vec4 noise = shader::simplexNoiseSlope(p, 11u);
+        value += noise.w * noise.w / count;
+        steepness += glm::dot(vec3(noise), vec3(noise)) / count;
+        expectedValue += std::pow(shader::gradientNoise(p, glm::uvec3(0u), 11u), 2) / count;
         for (int axis = 0; axis < 3; ++axis) {
-            dvec3 ahead(p), behind(p);
+            vec3 ahead(p), behind(p);
             ahead[axis] += step, behind[axis] -= step;
-            const double rise = reference::gradientNoise(ahead, 11) - reference::gradientNoise(behind, 11);
-            REQUIRE(std::abs(double(slope[axis]) - rise / (2 * step)) < 1e-4);
+            const auto rise = [&](const auto& at) { return double(at(ahead) - at(behind)) / (2 * step); };
+            const double slope = rise([](vec3 x) { return shader::simplexNoiseSlope(x, 11u).w; });
+            REQUIRE(std::abs(double(noise[axis]) - slope) < 2e-3);
+            expectedSteepness +=
+                std::pow(rise([](vec3 x) { return shader::gradientNoise(x, glm::uvec3(0u), 11u); }), 2) /
+                count;
         }
     }
+    CHECK(std::sqrt(value / expectedValue) == Approx(1).margin(0.05));
+    CHECK(std::sqrt(steepness / expectedSteepness) == Approx(1).margin(0.05));
 }
 
 TEST_CASE("shader fields agree with the reference", "[physics]") {
