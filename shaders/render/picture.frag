@@ -36,7 +36,7 @@ void main()
     vec4 stored = texelFetch(light, pixel, 0);
     float alpha = CLEAR ? clamp(stored.a, 0.0, 1.0) : 1.0;
     vec3 radiance = unsqueeze(stored.rgb / max(alpha, 1e-4));
-    if (OCCLUSION) radiance = occluded(radiance, pixel);
+    if (OCCLUSION && occlusionStrength > 0.0) radiance = occluded(radiance, pixel);
     if (BEAMS) radiance = max(radiance + texture(beams, screen).rgb, 0.25 * radiance);
     radiance *= exposure;
     // Half floats hold no more than this: light that was added up beyond it has become infinite, and what was blended

@@ -51,12 +51,12 @@ void AmbientOcclusion::draw(const Eye& eye, const gpu::Texture& sceneDepth) {
     gpu::drawVertices(3);
 }
 
-void AmbientOcclusion::apply(const gpu::Program& program, const Eye& eye,
-                             const gpu::Texture& sceneDepth) const {
+void AmbientOcclusion::apply(const gpu::Program& program, const Eye& eye, const gpu::Texture& sceneDepth,
+                             bool drawn) const {
     program.texture("occlusion", smooth_);
     program.texture("sceneDepth", sceneDepth);
     program.set("nearest", eye.nearest);
-    program.set("occlusionStrength", strength_);
+    program.set("occlusionStrength", drawn ? strength_ : 0);
     program.set("ambientLuminance", ambient_);
 }
 

@@ -20,8 +20,8 @@ class AmbientOcclusion {
     void resize(int width, int height);  // of the picture
     // `sceneDepth`: of all that is not blended.
     void draw(const Eye& eye, const gpu::Texture& sceneDepth);
-    // For the program of the picture (shaders/render/picture.frag).
-    void apply(const gpu::Program& program, const Eye& eye, const gpu::Texture& sceneDepth) const;
+    // For the program of the picture (shaders/render/picture.frag). `drawn`: else the picture goes without.
+    void apply(const gpu::Program& program, const Eye& eye, const gpu::Texture& sceneDepth, bool drawn) const;
     explicit operator bool() const { return strength_ > 0; }
 
   private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
@@ -62,7 +63,7 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
       wideShadow_(makeWideMap(context, scene, bounds.models, options, shadow_.get())),
       water_(makeWater(context, scene)),
       lighting_(context.info(), scene, bounds.crown, {shadow_.get(), wideShadow_.get()}, water_.get(),
-                DrawnGroups::blends(scene, plan) || SurfaceDrawer::blends(scene), options.samples),
+                DrawnGroups::blends(scene, plan) || SurfaceDrawer::blends(scene), options.quality.samples),
       surfaces_(context, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
       groups_(context, scene, plan, lighting_, options.slabs, pixelsPerMeterAt(scene.camera, options.height)),
       beams_(context, water_.get()),
@@ -91,10 +92,22 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
 }
 
 void Renderer::resize(int width, int height) {
+    if (!picture_ || width != picture_.width() || height != picture_.height()) makeTargets(width, height);
+}
+
+void Renderer::setQuality(const Quality& quality) {
+    if (quality == options_.quality) return;
+    const Quality before = std::exchange(options_.quality, quality);
+    if (quality.samples != before.samples) makeTargets(width(), height());
+    if (!shadow_ || quality.shadows) return;
+    shadow_->begin();  // nothing is in the shade
+    shadow_->end();
+}
+
+void Renderer::makeTargets(int width, int height) {
     using gpu::Format;
-    if (picture_ && width == picture_.width() && height == picture_.height()) return;
-    samples_ = gpu::Framebuffer::multisampled(*context_, Format::rgba16f, true, options_.samples, width,
-                                              height, "light, sampled");
+    samples_ = gpu::Framebuffer::multisampled(*context_, Format::rgba16f, true, options_.quality.samples,
+                                              width, height, "light, sampled");
     light_ = gpu::Texture(*context_, Format::rgba16f, width, height, "light");
     picture_ = gpu::Texture(*context_, Format::rgba8, width, height, "picture");
     lightTarget_ = gpu::Framebuffer(*context_, {&light_}, nullptr, "light");
@@ -125,7 +138,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("order");
         groups_.order(state, eye);
     }
-    if (shadow_) drawShadows(state, view.time);
+    if (shadow_ && options_.quality.shadows) drawShadows(state, view.time);
     if (water_) {
         const auto timer = timers_.time("caustics");
         water_->draw(view.time);
@@ -165,7 +178,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("beams");
         beams_.draw(eye, lighting_, sceneDepth_);
     }
-    if (occlusion_) {
+    if (occlusion_ && options_.quality.occlusion) {
         const auto timer = timers_.time("occlusion");
         occlusion_.draw(eye, sceneDepth_);
     }
@@ -244,7 +257,7 @@ void Renderer::drawPicture(const gpu::Program& tone, const Eye& eye, double expo
     tone.use();
     tone.texture("light", light_);
     if (beams_) tone.texture("beams", beams_.light());
-    if (occlusion_) occlusion_.apply(tone, eye, sceneDepth_);
+    if (occlusion_) occlusion_.apply(tone, eye, sceneDepth_, options_.quality.occlusion);
     tone.set("exposure", float(exposure));
     gpu::drawVertices(3);
 }

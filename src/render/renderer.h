@@ -31,10 +31,18 @@
 
 namespace shoal {
 
+// What a picture may do without, to be drawn sooner.
+struct Quality {
+    int samples = 4;        // a pixel; reduced to what the context has
+    bool shadows = true;    // of the sun, but those of what stands still on far ground
+    bool occlusion = true;  // of the sky by what stands near in the picture
+    bool operator==(const Quality&) const = default;
+};
+
 struct RenderOptions {
     int width = 1280, height = 720;  // pixels
-    int samples = 4;                 // a pixel; reduced to what the context has
-    int shadowSize = 2048;           // texels a side, at most
+    Quality quality = {};
+    int shadowSize = 2048;  // texels a side, at most
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
     int slabs = 128;    // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
@@ -69,6 +77,7 @@ class Renderer {
 
     // Error: larger than the context allows.
     void resize(int width, int height);
+    void setQuality(const Quality& quality);
     int width() const { return picture_.width(); }
     int height() const { return picture_.height(); }
 
@@ -109,6 +118,7 @@ class Renderer {
   private:
     Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options,
              const SceneBounds& bounds);
+    void makeTargets(int width, int height);
     void drawShadows(const StateView& state, double time);
     void drawClouds(const Scene& scene);
     void drawSky(const Eye& eye);

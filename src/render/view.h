@@ -15,6 +15,7 @@ struct View {
     double exposure = 1;
     double time = 0;  // s: where the colliders are that move
 
+    bool operator==(const View&) const = default;
     static View fromCamera(const Camera& camera, double time = 0);
 };
 

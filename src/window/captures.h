@@ -19,6 +19,7 @@ class Captures {
     // Begins a video, or ends it.
     void toggleVideo(RunningScene& running);
     void endVideo(RunningScene& running);  // if there is one
+    bool records() const { return recorder_.records(); }
     // A frame that was simulated and drawn, into the video, if there is one.
     void add(RunningScene& running);
 

@@ -79,11 +79,13 @@ void Input::listen() {
 void Input::next(bool chooses) {
     if (frames_.is_open() && waiting_.empty()) frames_.put('.').flush();
     pressed_.clear();
+    acts_ = !buttons_.empty() || !down_.empty();
     Taken taken;
     while (!waiting_.empty() && !taken.ends && fits(waiting_.front(), taken)) {
         const Event event = waiting_.front();
         waiting_.pop_front();
         take(event, taken);
+        acts_ = acts_ || event.kind != Event::Kind::move;
     }
     for (const int key : {GLFW_KEY_SPACE, GLFW_KEY_HOME, GLFW_KEY_ESCAPE})
         if (chooses) pressed_.erase(key);

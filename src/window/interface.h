@@ -43,7 +43,9 @@ class Input {
     void look(bool heard) { heard_ = heard; }
     bool pressed(int key) const { return heard_ && pressed_.contains(key); }  // went down in this frame
     bool held(int key) const { return down_.contains(key); }
-    bool control() const;                                                       // is held
+    bool control() const;                             // is held
+    bool waits() const { return !waiting_.empty(); }  // an event, for the next frame
+    bool acts() const { return acts_; }  // something is held, or happened in this frame, but for moves
     std::vector<std::string> dropped() { return std::exchange(dropped_, {}); }  // files, since the last call
 
   private:
@@ -67,7 +69,7 @@ class Input {
     std::deque<Event> waiting_;
     std::vector<std::string> dropped_;
     std::set<int> down_, pressed_;  // keys
-    bool heard_ = true;
+    bool heard_ = true, acts_ = false;
     std::set<int> buttons_;  // that are held
     ImVec2 place_{0, 0};     // of the pointer
     std::ofstream frames_;   // $SHOAL_FRAMES: a byte for each frame that began with nothing waiting

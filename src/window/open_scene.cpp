@@ -40,6 +40,7 @@ void OpenScene::follow() {
     camera.start(View::fromCamera(running.scene().camera));
     reload.follow(running, false);
     timeLine.forget();
+    picture.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
     explanations = std::make_unique<Explanations>(simulation().context(), running.scene(), plan);
@@ -84,13 +85,6 @@ View OpenScene::view() const {
     View out = camera.view();
     out.time = running.simulation().time();
     return out;
-}
-
-void OpenScene::drawPicture(double lineWidth) {
-    explanations->settings.lineWidth = lineWidth;
-    Renderer& renderer = running.renderer();
-    explanations->prepare(running.scene(), simulation(), view());
-    renderer.draw(simulation().state(), view(), explanations->any() ? explanations.get() : nullptr);
 }
 
 static double pointRadius(const Group& group) {

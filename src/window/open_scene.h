@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include "window/explanations.h"
+#include "window/frame_rate.h"
 #include "window/orbit_camera.h"
 #include "window/panel.h"
 #include "window/running_scene.h"
@@ -11,10 +12,49 @@
 
 namespace shoal::window {
 
+struct OpenScene;
+
+// The picture of an open scene: while something moves as quick as its rate asks for, full soon after all
+// rests, and from then on as it is.
+class ScenePicture {
+  public:
+    struct Frame {
+        int width, height;  // of the window, pixels
+        double time;        // s, of the wall clock
+        double seconds;     // that the last frame took, all in all
+        double lineWidth;   // pixels, of springs and arrows
+        bool moves;         // the run goes on, or the user does something
+    };
+    // `force`: full in any case. Error: a program cannot be made.
+    void draw(OpenScene& open, const Frame& frame, bool force);
+    bool rests() const { return rests_ && full_; }
+    bool missesRate();  // at the least that there is; says so once
+    void forget() { rate.forget(); }
+
+    FrameRate rate;
+
+  private:
+    void drawAt(OpenScene& open, const Frame& frame, const PictureLevel& level);
+
+    // What is seen, beside what the user changes.
+    struct Seen {
+        View view;
+        int width = 0, height = 0, builds = 0;
+        bool operator==(const Seen&) const = default;
+    };
+    Seen seen_;
+    double movedAt_ = 0;                 // s
+    double drawing_ = 0;                 // s, of the last picture, at the most
+    bool rests_ = false, full_ = false;  // nothing moves; the picture does without nothing
+    bool counts_ = false;                // the last frame, for the rate
+    bool told_ = false;
+};
+
 struct OpenScene {
     RunRequest request;  // what this scene was started with
     RunningScene running;
     Controls controls;
+    ScenePicture picture;
     Panel panel;
     ScenePanel scenePanel;
     OrbitCamera camera;
@@ -49,7 +89,6 @@ struct OpenScene {
     void drawPicked(float left, float bottom);
     std::vector<Warning> warnings() const;  // of the scene as it runs
     View view() const;                      // of now
-    void drawPicture(double lineWidth);     // pixels, of springs and arrows
 
   private:
     int builds_ = 1;  // of `running`, that were followed

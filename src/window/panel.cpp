@@ -141,7 +141,7 @@ static bool section(const char* title, bool open) {
 }
 
 Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanations& explanations,
-                          double frameSeconds, const gpu::Traffic& lastFrame) {
+                          FrameRate& rate, double frameSeconds, const gpu::Traffic& lastFrame) {
     Simulation& simulation = running.simulation();
     const float edge = points(12), width = points(304);
     ImGui::SetNextWindowPos(ImVec2(edge, edge), ImGuiCond_FirstUseEver);
@@ -154,7 +154,7 @@ Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanation
          {drawClock(controls, simulation), drawForces(controls, simulation), drawGroups(running),
           drawMethod(controls, running), drawTrials(running.document())})
         if (action == Action::none) action = asked;
-    drawView(explanations, simulation);
+    drawView(explanations, simulation, rate);
     drawCost(simulation, running.renderer(), frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
@@ -299,8 +299,13 @@ Panel::Action Panel::drawMethod(Controls& controls, const RunningScene& running)
     return path != current ? Action::switchPath : action;
 }
 
-void Panel::drawView(Explanations& explanations, const Simulation& simulation) {
+void Panel::drawView(Explanations& explanations, const Simulation& simulation, FrameRate& rate) {
     if (!section("View", true)) return;
+    ImGui::Checkbox(concat("Keep ", FrameRate::wanted, " frames a second").c_str(), &rate.keeps);
+    tip("While something moves, a picture that is slow to draw is smaller, or goes without shadows. Once it "
+        "rests, and in what is saved, it is full.");
+    const std::string without = told(rate.level());
+    if (!without.empty()) ImGui::TextWrapped("moves with %s", without.c_str());
     ExplanationSettings& settings = explanations.settings;
     ImGui::Checkbox("Springs (X)", &settings.springs);
     if (settings.springs) {

@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
+#include "window/frame_rate.h"
 #include "window/gizmo.h"
 #include "window/json_rows.h"
 #include "window/running_scene.h"
@@ -56,8 +57,8 @@ class Panel {
     void follow(const Scene& scene);  // that was built anew
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, RunningScene& running, Explanations& explanations, double frameSeconds,
-                const gpu::Traffic& lastFrame);
+    Action draw(Controls& controls, RunningScene& running, Explanations& explanations, FrameRate& rate,
+                double frameSeconds, const gpu::Traffic& lastFrame);
     const JsonValue& tried() const { return tried_; }  // what the scene is to say after tryOut
 
     std::string error;            // of the method, as measured; empty: it was not
@@ -69,7 +70,7 @@ class Panel {
     Action drawTrials(const SceneDocument& document);
     Action drawGroups(const RunningScene& running);
     Action drawMethod(Controls& controls, const RunningScene& running);
-    void drawView(Explanations& explanations, const Simulation& simulation);
+    void drawView(Explanations& explanations, const Simulation& simulation, FrameRate& rate);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                   const gpu::Traffic& lastFrame);
 

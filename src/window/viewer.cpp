@@ -12,6 +12,7 @@
 #include "run/signals.h"
 #include "window/captures.h"
 #include "window/open_scene.h"
+#include "window/viewer_keys.h"
 #include "window/window_loop.h"
 
 namespace shoal::window {
@@ -23,33 +24,7 @@ struct Wish {
     Panel::Action panel = Panel::Action::none;
     ScenePanel::Action scene = ScenePanel::Action::none;
     std::string open;  // a scene's file
-    bool close = false;
-};
-
-const HelpRow keysHelp[] = {
-    {"left drag", "turn the camera"},
-    {"right or middle drag", "move it"},
-    {"wheel", "nearer, farther"},
-    {"click", "pick a molecule, read its numbers"},
-    {"Shift + left button", "forces that follow the mouse"},
-    {"Space", "pause, go on"},
-    {".", "one step"},
-    {"R", "restart"},
-    {"1, 2, 3", "from the front, the side, the top"},
-    {"4, C", "the scene's own camera"},
-    {"5", "follow the picked molecule"},
-    {"X", "springs by their strain"},
-    {"F", "arrows of the fluid's velocity"},
-    {"H", "hide the panels, show them"},
-    {"T", "a time line, to go back on"},
-    {"O", "open another scene"},
-    {"Ctrl + S", "save what was edited"},
-    {"Ctrl + Z, Ctrl + Y", "take a change back, do it again"},
-    {"P", "picture, numbered, in the working folder"},
-    {"V", "record a video, stop"},
-    {"F1, ?", "these keys"},
-    {"Escape", "close what is on top, at last the window"},
-    {nullptr, nullptr},
+    bool close = false, picture = false;
 };
 
 class Viewer : public WindowLoop {
@@ -110,6 +85,7 @@ class Viewer : public WindowLoop {
 
     void obey() override {
         if (!opening_.empty()) return openNow();
+        if (open_ && wish_.picture) takePicture();
         if (open_) obeyPanels();
         for (const std::string& file : keys().dropped())
             takeDropped(file);
@@ -127,28 +103,40 @@ class Viewer : public WindowLoop {
             advance();
         }
         steps_ = false;
-        Renderer& renderer = open.running.renderer();
-        renderer.resize(width(), height());
         open.readPicked();
+        drawPictureOf(open, steps || keys().acts(), captures_.records() || savesScreenshot());
+        // and its files are watched from then on
+        const size_t files = context().shaderFiles().size();
+        if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
+        open.running.renderer().present(width(), height());
+        lastFrame_ = context().traffic() - before;
+        if (steps) captures_.add(open.running);
+    }
+
+    // `force`: a full picture, whatever moves.
+    void drawPictureOf(OpenScene& open, bool moves, bool force) {
         try {
-            open.drawPicture(1.5 * pixelsPerPoint());
+            open.picture.draw(
+                open, {width(), height(), wallTime(), lastSeconds(), 1.5 * pixelsPerPoint(), moves}, force);
             troubles.end("picture");
         } catch (const Error& error) {  // a program is made when it is needed first
             troubles.warn("picture", error.what());
         }
-        // and its files are watched from then on
-        const size_t files = context().shaderFiles().size();
-        if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
-        renderer.present(width(), height());
-        lastFrame_ = context().traffic() - before;
-        if (steps) captures_.add(open.running);
+        if (open.picture.missesRate()) captures_.say(open.picture.rate.whyMissed());
+    }
+
+    bool rests() override { return !open_ || open_->picture.rests(); }
+
+    void takePicture() {
+        drawPictureOf(*open_, true, true);
+        captures_.takePicture(open_->running);
     }
 
     void drawOpenScene() {
         OpenScene& open = *open_;
         if (!hidden_) {
-            wish_.panel =
-                open.panel.draw(open.controls, open.running, *open.explanations, frameSeconds(), lastFrame_);
+            wish_.panel = open.panel.draw(open.controls, open.running, *open.explanations, open.picture.rate,
+                                          frameSeconds(), lastFrame_);
             open.drawPicked(points(328), points(open.timeLine.open ? 90 : 12));
             if (const SavedState* state = open.timeLine.draw(points(328), points(392), open.simulation()))
                 goTo(*state);
@@ -401,7 +389,7 @@ class Viewer : public WindowLoop {
         if (keys().pressed(GLFW_KEY_F)) settings.field = !settings.field;
         if (keys().pressed(GLFW_KEY_H)) hidden_ = !hidden_;
         if (keys().pressed(GLFW_KEY_T)) open_->timeLine.open = !open_->timeLine.open;
-        if (keys().pressed(GLFW_KEY_P)) captures_.takePicture(open_->running);
+        if (keys().pressed(GLFW_KEY_P)) wish_.picture = true;
         if (keys().pressed(GLFW_KEY_V)) captures_.toggleVideo(open_->running);
         constexpr double quarter = 1.5707963267948966;  // rad
         if (keys().pressed(GLFW_KEY_1)) open_->camera.lookFrom(0, 0);

@@ -27,12 +27,16 @@ WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
 void WindowLoop::go() {
     auto last = std::chrono::steady_clock::now();
     while (!ends()) {
-        glfwPollEvents();
+        constexpr double pause = 0.05;  // s
+        if (rests() && !interface_.input().waits())
+            glfwWaitEventsTimeout(pause);
+        else
+            glfwPollEvents();
         const auto time = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(time - last).count();
+        lastSeconds_ = std::chrono::duration<double>(time - last).count();
         last = time;
         // the first intervals hold start-up, not frames
-        if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
+        if (shown_ > 1) frameSeconds_ += (lastSeconds_ - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
         if (!showFrame()) break;
     }
 }
@@ -40,7 +44,11 @@ void WindowLoop::go() {
 bool WindowLoop::ends() {
     if (signalThatAsked()) return true;
     if (!glfwWindowShouldClose(window_)) return false;
-    if (mayClose()) return true;
+    if (saves_) return true;
+    if (mayClose()) {
+        saves_ = !options_.screenshot.empty();  // of one more frame
+        return !saves_;
+    }
     glfwSetWindowShouldClose(window_, GLFW_FALSE);
     return false;
 }
@@ -52,14 +60,14 @@ bool WindowLoop::showFrame() {
         glfwWaitEventsTimeout(0.1);
         return true;
     }
+    const bool last = options_.frames && shown_ + 1 >= *options_.frames;
+    saves_ = saves_ || (last && !options_.screenshot.empty());
     drawPicture();
     interface_.begin();
     drawInterface();
     interface_.end();
     ++shown_;
-    const bool last = options_.frames && shown_ >= *options_.frames;
-    const bool closing = last || glfwWindowShouldClose(window_);
-    if (closing && !options_.screenshot.empty()) saveScreenshot();
+    if (saves_) saveScreenshot();
     glfwSwapBuffers(window_);
     obey();
     return !last;

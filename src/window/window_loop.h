@@ -28,6 +28,8 @@ class WindowLoop {
     virtual void drawPicture() = 0;
     virtual void drawInterface() = 0;  // over the picture; what the user did is in keys() and ImGui
     virtual void obey() = 0;           // does what was asked for, after the frame is on the screen
+    // Whether nothing moves: then frames come when the user does something, and now and then.
+    virtual bool rests() { return false; }
 
     // Whether the window may close, which the user asks for. False: it stays, and something is to be said
     // first.
@@ -41,7 +43,9 @@ class WindowLoop {
     int width() const { return width_; }                   // pixels
     int height() const { return height_; }                 // pixels
     int shown() const { return shown_; }                   // frames
-    double frameSeconds() const { return frameSeconds_; }  // wall clock, smoothed; 0: not known yet
+    double lastSeconds() const { return lastSeconds_; }    // wall clock, of the last frame
+    double frameSeconds() const { return frameSeconds_; }  // smoothed; 0: not known yet
+    bool savesScreenshot() const { return saves_; }        // of this frame
     static double wallTime();                              // s
 
     void close();                                         // after this frame, where mayClose() agrees
@@ -59,7 +63,8 @@ class WindowLoop {
     GLFWwindow* window_;
     Interface interface_;
     int width_ = 0, height_ = 0, shown_ = 0;
-    double frameSeconds_ = 0;
+    bool saves_ = false;
+    double lastSeconds_ = 0, frameSeconds_ = 0;
 };
 
 }  // namespace shoal::window

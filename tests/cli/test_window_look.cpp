@@ -79,6 +79,36 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     CHECK(readFile(scratch.path("still-002.png")) == "mine");
 }
 
+TEST_CASE("a picture that is saved is full while the rate is kept, and so is the window's once it rests",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    std::string text = still;  // with a ground that takes long to draw
+    text.insert(text.find("\"groups\""),
+                "\"colliders\": [{\"type\": \"plane\", \"point\": [0, -0.5, 0]}],\n  ");
+    const std::string scene = scratch.write("still.scene.json", text);
+    scratch.write("sail.json", sail);
+    // while it runs, and long after it was paused; the window's own picture is the same then
+    const Outcome outcome = inWindow(
+        {"run", scene, "--context", "window", "--size", "1800x1200", "--frames", "100000", "--screenshot",
+         scratch.path("all.png")},
+        "settle; settle; settle; settle; settle; settle; settle; settle; settle; settle; settle; settle\n"
+        "key h; key p; key space; settle; settle; sleep 1; settle; key p; key Escape\n",
+        {.folder = scratch.path("")});
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto picture = [&](const char* name) {
+        Image out = readPng(scratch.path(name));
+        CHECK(out.width == 1800);
+        CHECK(out.height == 1200);
+        out.pixels.resize(out.pixels.size() * 11 / 12);  // without the line that tells of pictures
+        return out;
+    };
+    const Image moving = picture("still-001.png"), resting = picture("still-002.png");
+    CHECK(differing(moving, resting) == 0);
+    CHECK(differing(resting, picture("all.png")) == 0);
+}
+
 // Clicks beside the molecule pick nothing, and a drag turns the camera: four times picked, twice let go.
 TEST_CASE("what is done within one frame is taken in its order", "[.window]") {
     if (!hasXdotool()) return;

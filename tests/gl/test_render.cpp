@@ -187,11 +187,45 @@ TEST_CASE("drawing writes no state and moves none", "[render]") {
     CHECK(shown.moved.total(gpu::Traffic::Kind::control) == 0);
 }
 
+TEST_CASE("a picture does without samples, shadows and occlusion, and is full again", "[render]") {
+    Scene scene = sceneOfSquares({{0, 0.5, 0}});
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
+    scene.colliders.push_back({.name = "box", .shape = BoxCollider{{1, 0.3, 0}, {0.6, 0.6, 0.6}}});
+    scene.light.direction = {-1.5, -1, 0.5};
+    scene.sky.occlusion = 1;
+    scene.camera.eye = {0, 1.5, 4};
+    scene.camera.target = {0, 0.3, 0};
+    const Plan plan = compile(scene);
+    Renderer renderer(testContext(), scene, plan, {.width = 160, .height = 120});
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
+    const auto drawn = [&](const Quality& quality) {
+        renderer.setQuality(quality);
+        renderer.draw(simulation.state(), View::fromCamera(scene.camera));
+        return renderer.capture();
+    };
+    const Image full = drawn({});
+    // edges alone; what lay in the shade is brighter, and so is what is near others
+    const Image jagged = drawn({.samples = 1});
+    CHECK(changed(full, jagged, 8).count > 50);
+    CHECK(changed(full, jagged, 8).count < 1000);
+    const Image lit = drawn({.shadows = false}), open = drawn({.occlusion = false});
+    CHECK(changed(full, lit, 20).count > 300);
+    CHECK(changed(full, open, 4).count > 100);
+    int darker = 0;
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x)
+            for (const Image* less : {&lit, &open})
+                darker += brightness(pixel(*less, x, y)) < brightness(pixel(full, x, y)) - 3;
+    CHECK(darker == 0);
+    CHECK(drawn({}).pixels == full.pixels);
+}
+
 TEST_CASE("a picture takes another size, and every number of samples", "[render]") {
     Scene scene = sceneOfSquares({{0, 0, 0}});
     const Plan plan = compile(scene);
     for (const int samples : {1, 4}) {
-        Renderer renderer(testContext(), scene, plan, {.width = 64, .height = 48, .samples = samples});
+        Renderer renderer(testContext(), scene, plan,
+                          {.width = 64, .height = 48, .quality = {.samples = samples}});
         const Simulation simulation(testContext(), plan, {.path = testPath()});
         renderer.resize(101, 37);
         renderer.draw(simulation.state(), View::fromCamera(scene.camera));
