@@ -2,9 +2,11 @@
 // nothing of it where nothing is blended.
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "gl/blending.h"
 #include "render/draw_order.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -227,27 +229,34 @@ TEST_CASE("a spread order follows the camera, and is exact once it rests", "[ren
     CHECK(wrong == 0);
 }
 
-TEST_CASE("where nothing is blended there is no pass for it", "[render][transparency]") {
-    const auto passNames = [](Blend blend) {
-        const Scene scene = sceneOfPanes(blend, 0.5);
+TEST_CASE("no pass is drawn that changes no pixel", "[render][transparency]") {
+    const auto passesOf = [](const Scene& scene) {
         const Plan plan = compile(scene);
         Renderer renderer(testContext(), scene, plan,
                           {.width = 64, .height = 64, .timing = gpu::PassTimers::Mode::finish});
         const Simulation simulation(testContext(), plan, {.path = testPath()});
         renderer.draw(simulation.state(), View::fromCamera(scene.camera));
-        std::vector<std::string> names;
+        std::set<std::string> names;
         for (const gpu::PassTime& pass : renderer.timers().report())
-            names.push_back(pass.name);
+            names.insert(pass.name);
         return names;
     };
-    const auto has = [](const std::vector<std::string>& names, const char* name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    const auto opaque = passNames(Blend::none), blended = passNames(Blend::alpha);
-    CHECK_FALSE((has(opaque, "order") || has(opaque, "blended")));
-    CHECK((has(blended, "order") && has(blended, "blended")));
-    CHECK((has(opaque, "molecules") && !has(blended, "molecules")));
-    CHECK(opaque.size() + 1 == blended.size());
+    using Names = std::set<std::string>;
+    // the least: panes that are not blended, without sun and occlusion
+    Scene scene = sceneOfPanes(Blend::none, 0.5);
+    scene.sky.occlusion = 0;
+    CHECK(passesOf(scene) == Names{"molecules", "sky", "resolve", "picture"});
+    scene.sky.occlusion = 1;
+    CHECK(passesOf(scene) == Names{"molecules", "sky", "depth", "resolve", "occlusion", "picture"});
+    scene.sky.occlusion = 0;
+    scene.light.shadows = true;
+    CHECK(passesOf(scene).contains("shadows"));
+    // what is blended casts no shadow, and neither does a plane
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{{0, -1, 0}}});
+    scene.groups[0].molecule.material.blend = Blend::alpha;
+    CHECK(passesOf(scene) == Names{"order", "surfaces", "sky", "blended", "resolve", "picture"});
+    scene.colliders.push_back({.name = "ball", .shape = BoxCollider{{0, 0, 0}, {0.3, 0.3, 0.3}}});
+    CHECK(passesOf(scene).contains("shadows"));
 }
 
 TEST_CASE("points are blended in order, too", "[render][transparency]") {
