@@ -13,11 +13,15 @@ constexpr double budget = 1 / FrameRate::wanted;           // s
 constexpr size_t fewest = 3, remembered = 9, steady = 30;  // frames: to lower, to look at, to raise
 constexpr int patience = 600;                              // frames
 
-double medianOfLast(const std::vector<double>& values) {
-    const size_t count = std::min(values.size(), remembered);
-    std::vector<double> last(values.end() - ptrdiff_t(count), values.end());
-    std::nth_element(last.begin(), last.begin() + ptrdiff_t(count / 2), last.end());
-    return last[count / 2];
+void remember(std::vector<double>& values, double value) {
+    if (values.size() == remembered) values.erase(values.begin());
+    values.push_back(value);
+}
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 }  // namespace
@@ -30,10 +34,10 @@ void FrameRate::took(double seconds, double drawing) {
         --settling_;
         return;
     }
-    seconds_.push_back(seconds);
-    drawing_.push_back(drawing);
-    if (seconds_.size() < fewest) return;
-    const double frame = medianOfLast(seconds_), picture = medianOfLast(drawing_);
+    remember(seconds_, seconds);
+    remember(drawing_, drawing);
+    if (++frames_ < fewest) return;
+    const double frame = medianOf(seconds_), picture = medianOf(drawing_);
     rest_ = std::max(0.0, frame - picture);
     // Where all else is slow, a third of the frame is the picture's: less would not be seen in the rate.
     const double most = std::max(budget - rest_, rest_ / 2);
@@ -47,7 +51,7 @@ void FrameRate::took(double seconds, double drawing) {
         change(next);
         return;
     }
-    if (seconds_.size() < steady) return;
+    if (frames_ < steady) return;
     missed_ = slow;
     if (level_ > 0 && tooSlow_[level_ - 1] == 0 && full * pictureLevels[level_ - 1].cost < 0.9 * most)
         change(level_ - 1);
@@ -56,6 +60,7 @@ void FrameRate::took(double seconds, double drawing) {
 void FrameRate::change(size_t level) {
     level_ = level;
     settling_ = unsettled;
+    frames_ = 0;
     seconds_.clear();
     drawing_.clear();
 }

@@ -47,11 +47,12 @@ class FrameRate {
 
     size_t level_ = 0;
     int settling_ = unsettled;               // frames that are not counted: programs are made in them
-    std::vector<double> seconds_, drawing_;  // of the frames at this level
+    size_t frames_ = 0;                      // at this level, that were counted
+    std::vector<double> seconds_, drawing_;  // of the last of them
     double rest_ = 0;                        // s, of a frame beside its picture
-    std::array<int, pictureLevels.size()>
-        tooSlow_{};  // frames until a level that was too slow is tried again
     bool missed_ = false;
+    // Frames until a level that was too slow is tried again.
+    std::array<int, pictureLevels.size()> tooSlow_{};
 
     static constexpr int unsettled = 2;
 };

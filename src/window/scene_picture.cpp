@@ -22,6 +22,7 @@ void ScenePicture::drawAt(OpenScene& open, const Frame& frame, const PictureLeve
 void ScenePicture::draw(OpenScene& open, const Frame& frame, bool force) {
     constexpr double patience = 0.3;  // s, from the last move to a full picture
     const Seen current{open.view(), frame.width, frame.height, open.running.builds()};
+    if (frame.width != seen_.width || frame.height != seen_.height) rate.forget();
     if (frame.moves || current != seen_) movedAt_ = frame.time, full_ = false;
     seen_ = current;
     rests_ = frame.time - movedAt_ > patience;
