@@ -19,6 +19,19 @@ namespace shoal {
 
 using Clock = std::chrono::steady_clock;
 
+void TimeLeft::reach(int done, double time) {
+    constexpr size_t remembered = 9;
+    last_.emplace_back(done, time);
+    if (last_.size() > remembered) last_.pop_front();
+}
+
+double TimeLeft::seconds(int total) const {
+    if (last_.size() < 2) return 0;
+    const auto& [first, began] = last_.front();
+    const auto& [done, ended] = last_.back();
+    return (ended - began) / (done - first) * (total - done);
+}
+
 Progress::Progress(const std::string& what, int total)
     : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {
     if (terminal_) print();
@@ -31,8 +44,9 @@ Progress::~Progress() {
 void Progress::reach(int done) {
     if (done <= done_) return;
     const Clock::time_point current = Clock::now();
-    if (done_ == 0) firstDone_ = current;
     done_ = std::min(done, total_);
+    // from the first step on, which has what is done once: drivers compile in it
+    left_.reach(done_, std::chrono::duration<double>(current - start_).count());
     if (terminal_ && (done_ == total_ || current - printed_ > std::chrono::milliseconds(100))) {
         printed_ = current;
         print();
@@ -53,10 +67,7 @@ void Progress::rename(std::string what) {
 void Progress::print() {
     const Clock::time_point current = Clock::now();
     const double seconds = std::chrono::duration<double>(current - start_).count();
-    // the first step has what is done once: drivers compile in it
-    const double perStep =
-        done_ > 1 ? std::chrono::duration<double>(current - firstDone_).count() / (done_ - 1) : seconds;
-    const double left = perStep * (total_ - done_);
+    const double left = done_ == 1 ? seconds * (total_ - 1) : left_.seconds(total_);
     if (!terminal_) {
         const std::string time = left < 1 ? "less than 1 s" : concat("about ", roughly(left));
         const std::string rest = done_ < total_ ? concat(", ", time, " left") : "";

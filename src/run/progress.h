@@ -4,17 +4,30 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "geometry/distance_field.h"
 
 namespace shoal {
+
+// How long the rest of a work takes, by its last steps alone: what was slow before is over, and what is slow
+// now goes on.
+class TimeLeft {
+  public:
+    void reach(int done, double time);  // steps, each time more; s
+    double seconds(int total) const;    // of the steps that are left; 0: not known yet
+
+  private:
+    std::deque<std::pair<int, double>> last_;  // steps and when they were done
+};
 
 // A bar on a terminal, plain lines elsewhere (every tenth).
 class Progress {
@@ -31,7 +44,8 @@ class Progress {
     std::string what_;
     int total_, done_ = 0, printedTenth_ = 0;
     bool terminal_;
-    std::chrono::steady_clock::time_point start_, firstDone_, printed_;
+    std::chrono::steady_clock::time_point start_, printed_;
+    TimeLeft left_;
 };
 
 // Shows the baking of distance fields when it takes long.
