@@ -131,7 +131,8 @@ bool ShadowMap::covers(const Box& box) const {
     return true;
 }
 
-void ShadowMap::begin() const {
+void ShadowMap::begin(const ShadowMap* other) const {
+    if (other) other->framebuffer_.blitDepthTo(framebuffer_);
     framebuffer_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -139,7 +140,7 @@ void ShadowMap::begin() const {
     glEnable(GL_DEPTH_CLAMP);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.5f, 2);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    if (!other) glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 void ShadowMap::end() const {

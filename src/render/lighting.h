@@ -39,7 +39,8 @@ class ShadowMap {
     // At most so many texels a side: as many as the blur of its edges asks for.
     ShadowMap(gpu::Context& context, int most, const Box& casters, const glm::dvec3& towardsSun);
 
-    void begin() const;  // binds and clears; OpenGL's state for casters
+    // Binds; sets OpenGL's state for casters; clears, or takes over what another map of the same box has.
+    void begin(const ShadowMap* other = nullptr) const;
     void end() const;
 
     // Whether the sun's light into all of a box goes through the map.

@@ -85,10 +85,22 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
                                          "linear picture"});
     resize(options.width, options.height);
     if (scene.sky.clouds > 0) drawClouds(scene);
-    if (!wideShadow_) return;
-    wideShadow_->begin();
-    surfaces_.drawShadows(*wideShadow_, {});
-    wideShadow_->end();
+    if (shadow_ && surfaces_.castsStill()) {
+        stillShadow_ = makeShadowMap(context, scene, bounds.casters, options);
+        drawStillShadows(*stillShadow_);
+    }
+    if (wideShadow_) drawStillShadows(*wideShadow_);
+}
+
+void Renderer::changeColliders(const std::vector<Collider>& colliders) {
+    surfaces_.changeColliders(*context_, colliders, lighting_);
+    if (stillShadow_) drawStillShadows(*stillShadow_);
+}
+
+void Renderer::drawStillShadows(ShadowMap& map) const {
+    map.begin();
+    surfaces_.drawShadows(map, {});
+    map.end();
 }
 
 void Renderer::resize(int width, int height) {
@@ -188,7 +200,8 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
 
 void Renderer::drawShadows(const StateView& state, double time) {
     const auto timer = timers_.time("shadows");
-    shadow_->begin();
+    shadow_->begin(stillShadow_.get());
+    if (!stillShadow_) surfaces_.drawShadows(*shadow_, {});
     surfaces_.drawShadows(*shadow_, time);
     groups_.drawShadows(state, *shadow_, time);
     shadow_->end();

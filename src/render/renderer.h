@@ -104,9 +104,7 @@ class Renderer {
     bool changeLooks(size_t group, const Group& looks) { return groups_.changeLooks(group, looks); }
 
     // Draws these instead of the scene's. What stands still keeps its shadow on far ground.
-    void changeColliders(const std::vector<Collider>& colliders) {
-        surfaces_.changeColliders(*context_, colliders, lighting_);
-    }
+    void changeColliders(const std::vector<Collider>& colliders);
 
     gpu::PassTimers& timers() { return timers_; }
     // How many points and triangles of molecules the last picture has; waits for it.
@@ -120,6 +118,7 @@ class Renderer {
              const SceneBounds& bounds);
     void makeTargets(int width, int height);
     void drawShadows(const StateView& state, double time);
+    void drawStillShadows(ShadowMap& map) const;
     void drawClouds(const Scene& scene);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
@@ -130,7 +129,9 @@ class Renderer {
     RenderOptions options_;
     std::unique_ptr<ShadowMap> shadow_;      // null: the sun casts none
     std::unique_ptr<ShadowMap> wideShadow_;  // drawn once; null: not needed
-    std::unique_ptr<WaterLight> water_;      // null: all is in the air
+    std::unique_ptr<ShadowMap>
+        stillShadow_;  // the first, of what stands still alone: drawn once; null: nothing does
+    std::unique_ptr<WaterLight> water_;  // null: all is in the air
     Lighting lighting_;
     SurfaceDrawer surfaces_;
     DrawnGroups groups_;

@@ -244,9 +244,16 @@ void SurfaceDrawer::submit(const Drawn& surface, const Look& look) const {
                    reinterpret_cast<const void*>(size_t(look.firstIndex) * sizeof(uint32_t)));
 }
 
+bool SurfaceDrawer::castsStill() const {
+    return std::any_of(surfaces_.begin(), surfaces_.end(), [](const Drawn& surface) {
+        return !surface.path && std::any_of(surface.looks.begin(), surface.looks.end(),
+                                            [](const Look& look) { return look.depth != nullptr; });
+    });
+}
+
 void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> time) const {
     for (const Drawn& surface : surfaces_) {
-        if (surface.path && !time) continue;
+        if (surface.path.has_value() != time.has_value()) continue;
         const Pose pose = poseOf(surface.path, time.value_or(0));
         for (const Look& look : surface.looks) {
             if (!look.depth) continue;

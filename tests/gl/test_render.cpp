@@ -107,6 +107,55 @@ TEST_CASE("a molecule's shadow darkens the ground below it, and nothing else", "
     CHECK(difference(pixel(shaded, 80, 115), pixel(lit, 80, 115)) <= 1);
 }
 
+TEST_CASE("shadows go with what moves, and those of what stands still with what is edited", "[render]") {
+    Scene scene = sceneOfSquares({{-3, 0.5, -3}});
+    scene.light.direction = {0, -1, 0};
+    scene.camera.target = {0, 0, 0};
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
+    // boards with room below them, of which a camera to the side sees the shade
+    const auto board = [](double x, double z) {
+        Collider out;
+        out.shape = BoxCollider{{x, 1, z}, {0.5, 0.02, 0.5}};
+        return out;
+    };
+    scene.colliders.push_back(board(-1, 0));
+    scene.colliders.push_back(board(1, 0));
+    ColliderPath path;
+    path.keyframes = {{0, {}}, {1, {{0, 0, 1.5}, {1, 0, 0, 0}}}};
+    scene.colliders.back().path = path;
+    scene.camera.eye = {0, 4, 4};
+    const Plan plan = compile(scene);
+    Renderer renderer(testContext(), scene, plan, {.width = 320, .height = 240});
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
+    // darker than the open ground
+    const auto shadeAt = [&](double time, const glm::dvec3& place) {
+        View view = View::fromCamera(scene.camera);
+        view.time = time;
+        renderer.draw(simulation.state(), view);
+        const Image image = renderer.capture();
+        const Eye eye(view, image.width, image.height);
+        const auto brightnessAt = [&](const glm::dvec3& x) {
+            const glm::vec4 clip = eye.toClip * glm::vec4(glm::vec3(x - eye.origin.exact), 1);
+            const glm::vec2 at = (glm::vec2(clip) / clip.w * glm::vec2(0.5f, -0.5f) + 0.5f) *
+                                 glm::vec2(image.width, image.height);
+            return brightness(pixel(image, int(at.x), int(at.y)));
+        };
+        return 4 * brightnessAt(place) < 3 * brightnessAt({0, 0, 0.5});
+    };
+    const glm::dvec3 still{-1, 0, 0}, moving{1, 0, 0}, moved{1, 0, 1.5}, edited{-1, 0, -1.5};
+    for (const double time : {0.0, 1.0, 0.0}) {
+        CAPTURE(time);
+        CHECK(shadeAt(time, still));
+        CHECK(shadeAt(time, moving) == (time == 0));
+        CHECK(shadeAt(time, moved) == (time == 1));
+    }
+    scene.colliders[1] = board(-1, -1.5);
+    renderer.changeColliders(scene.colliders);
+    CHECK_FALSE(shadeAt(0, still));
+    CHECK(shadeAt(0, edited));
+    CHECK(shadeAt(0, moving));
+}
+
 TEST_CASE("places near others see less of the sky", "[render][occlusion]") {
     Scene scene = sceneOfSquares({{0, 0, -1000}});
     scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
