@@ -59,7 +59,7 @@ def check_tables():
 
 
 def check_measured(folder):
-    words = [sys.executable, script, folder, "--only", "leaf-spin-1e2", "--count", "8", "--molecules", "1", "--seconds", "2",
+    words = [sys.executable, script, folder, "--only", "leaf-spin-1e2", "--count", "8", "--molecules", "1", "--seconds", "20",
              "--solvers", "leapfrog"]
     said = subprocess.run(words, check=True, capture_output=True, text=True)
     assert "scene 1 of 1, leaf-spin-1e2" in said.stderr
