@@ -31,7 +31,9 @@ class Search {
         many_ = withMolecules(scene, software ? manyOnCpu : manyOnGpu);
         all_ = withMolecules(scene, sampleMolecules);
         frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
-        ladder_ = options.substeps ? std::vector{Step{*options.substeps, 1}} : stepLadder(1);
+        ladder_ = stepLadder(1);
+        ladder_.push_back({maxSubsteps, 1});
+        if (options.substeps) ladder_ = {{*options.substeps, 1}};
     }
 
     Calibration run() {

@@ -194,11 +194,8 @@ Outcome runProgram(const std::string& program, const Words& arguments, const Sur
 std::vector<std::string> Outcome::messages() const {
     std::vector<std::string> found;
     std::istringstream lines(err);
-    for (std::string line; std::getline(lines, line);) {
-        const bool busy =
-            line.starts_with("shoal: waiting for the driver") || line.starts_with("shoal: still ");
-        if (line.starts_with("shoal: ") && !busy) found.push_back(line);
-    }
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind("shoal: ", 0) == 0) found.push_back(line);
     return found;
 }
 

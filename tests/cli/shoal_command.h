@@ -17,8 +17,7 @@ struct Outcome {
     bool late = false;
     std::string out, err;
 
-    // The lines that the program says on standard error as itself, "shoal: ...", but for what takes long on a
-    // slow machine.
+    // The lines that the program says on standard error as itself: "shoal: ...".
     std::vector<std::string> messages() const;
     JsonValue json() const;  // standard output, read strictly
 };

@@ -54,7 +54,7 @@ TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor"
         "drag 565 159 611; control s; cp $file $file.moved\n"
         "control z; control s; cp $file $file.back; control y; control s; close\n");
     CHECK(out.code == 0);
-    CHECK(out.messages().empty());
+    CHECK(out.err.empty());
     const Molecule moved = readMolecule(session.file + ".moved");
     CHECK(moved.vertices[2].position.x == Approx(1.2).margin(0.02));
     CHECK(moved.vertices[2].position.y == Approx(1).margin(0.02));
@@ -89,7 +89,7 @@ TEST_CASE("springs and vertices are added, removed and pinned in the editor", "[
         "key v; press 335 389; key p; control s; cp $file $file.braced\n"
         "press 565 159; key Delete; control s; close\n");
     CHECK(out.code == 0);
-    CHECK(out.messages().empty());
+    CHECK(out.err.empty());
     const Molecule braced = readMolecule(session.file + ".braced");
     REQUIRE(braced.springs.size() == 6);
     CHECK(braced.springs[5].a + braced.springs[5].b == 4);

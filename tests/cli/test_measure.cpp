@@ -250,6 +250,18 @@ TEST_CASE("--error finds a method, once", "[cli]") {
     CHECK_THAT(runShoal(words, cacheIn(scratch)).err, Catch::Contains("found in "));
 }
 
+TEST_CASE("--error takes as many substeps as a frame may have", "[cli]") {
+    const Scratch scratch;
+    // stable with 668 and more
+    const Outcome outcome = runShoal(
+        {"explain", shearScene(scratch, R"(, "stiffness": 4e5)"), "--error", "0.5", "--error-seconds", "1000",
+         "--solver", "leapfrog", "--field-sampling", "vertexSubstep", "--json"},
+        cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(member(member(outcome.json(), "calibration"), "substeps").number > 667);
+}
+
 TEST_CASE("--error refuses what cannot be had", "[cli]") {
     const Scratch scratch;
     const std::string scene = shearScene(scratch);

@@ -77,7 +77,7 @@ TEST_CASE("what is dragged and added in the window is saved, and no other byte c
     const Edited edited = edit("dragged", std::string(places) +
                                               "rate 850; control s; keep\n"
                                               "addEmitter; save; key Escape\n");
-    CHECK(edited.outcome.messages().empty());
+    CHECK(edited.outcome.err.empty());
     const JsonValue between = parseJson(edited.between, "between"), after = parseJson(edited.after, "after");
     const double rate = member(emittersIn(between).items[0], "rate").number;
     CHECK(rate > 200);
@@ -109,7 +109,7 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
         "control z; control z; control s\n"
         "key Escape\n";
     const Outcome outcome = editWhole(file, steps);
-    CHECK(outcome.messages().empty());
+    CHECK(outcome.err.empty());
     const std::string begun = readFile(file + ".begun"), kept = readFile(file + ".kept");
     const size_t added = kept.find(",\n    {\"type\": \"sphere\", \"center\": [");
     REQUIRE(added != std::string::npos);
@@ -185,7 +185,7 @@ TEST_CASE("rows are reached, opened, added, ticked and typed by the keyboard alo
         "key Up; key space; key Up; key Return; xdotool type --delay 60 0.5; settle; key Return\n"
         "control s; close\n";
     const Outcome outcome = editWhole(file, steps);
-    CHECK(outcome.messages().empty());
+    CHECK(outcome.err.empty());
     std::string expected = readFile(file + ".begun");
     const size_t end = expected.rfind("\n}");
     REQUIRE(end != std::string::npos);
@@ -222,7 +222,7 @@ TEST_CASE("the time line goes back to a state that was kept", "[.window]") {
     const Outcome outcome = inWindow({"run", file, "--context", "window", "--size", "900x640"}, steps);
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
-    CHECK(outcome.messages().empty());
+    CHECK(outcome.err.empty());
     std::vector<std::string> went;
     std::istringstream lines(outcome.out);
     for (std::string line; std::getline(lines, line);)
