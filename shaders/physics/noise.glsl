@@ -68,7 +68,7 @@ float signedBy(float value, uint word)
     return uintBitsToFloat(floatBitsToUint(value) ^ (word & 2147483648u));
 }
 
-// What a corner adds to simplexNoiseSlope(), at `d` from it. Its gradient is one of eight, of ones with the signs of bits.
+// A corner's part of simplexNoiseSlope(), at `d` from it. Its gradient is one of eight, of ones with the signs of bits.
 vec4 simplexCorner(vec3 d, uint word)
 {
     uint hash = (word ^ (word >> 15u)) * 2146121005u;

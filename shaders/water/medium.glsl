@@ -61,7 +61,7 @@ vec3 ambientAt(vec3 place, vec3 normal)
     float depth = depthOf(place);
     if (depth <= 0.0) return ambientLight(normal);
     vec3 lost = exp(-waterExtinction * depth);
-    vec3 above = lost * (mix(skyHorizon, skyZenith, 0.55) * 0.75 + waterScattering);
+    vec3 above = lost * (ambientAbove * 0.75 + waterScattering);
     vec3 below = lost * waterScattering * 0.45;
     return mix(below, above, 0.5 + 0.5 * normal.y);
 }

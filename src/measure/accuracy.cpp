@@ -17,6 +17,7 @@ constexpr double shareOfError = 0.01;    // of the smallest error: the reference
 constexpr double byProbes = 0.2, byExtra = 0.3, byReference = 0.65, byErrors = 0.8;
 
 struct Curve : MethodOnBoth {
+    FrameCost fewCost;
     double fewStep = 0, manyStep = 0;  // s, that setting another step takes
     std::vector<AccuracyPoint> points;
     std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
@@ -91,6 +92,7 @@ class Sweep {
             reference_ =
                 std::make_unique<ExactEnds>(few_, curve.few->simulation().plan(), curve.few->snapshots(),
                                             out_.duration, device_.cores, options_.molecules);
+        curve.fewCost = frameCost(*curve.few);
         curve.fewStep = secondsOfStep(*curve.few, curve.fewCost);
         curve.manyStep = secondsOfStep(*curve.many, curve.manyCost);
         out_.path = curve.few->simulation().path().path;

@@ -143,7 +143,6 @@ MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many
                      std::make_unique<MethodRunner>(few, method, device),
                      std::make_unique<MethodRunner>(many, method, device),
                      {},
-                     {},
                      {}};
     for (const Step& step : steps) {
         out.refused = out.few->refusal(step);
@@ -152,7 +151,6 @@ MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many
             out.few->set(step);
             out.many->set(step);
             pinRasteriserThreads();
-            out.fewCost = frameCost(*out.few);
             out.manyCost = frameCost(*out.many);
         } catch (const Error& error) {
             out.refused = error.what();

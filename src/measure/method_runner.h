@@ -111,10 +111,10 @@ struct SmallestError {
 struct MethodOnBoth {
     Method method;
     std::unique_ptr<MethodRunner> few, many;
-    FrameCost fewCost, manyCost;
+    FrameCost manyCost;
     std::string refused;  // why it takes no step; empty: it is ready
 };
-// Compiles the method for the first of the steps that it takes, and looks at what its frames cost.
+// Compiles the method for the first of the steps that it takes, and looks at what frames of many cost.
 MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many,
                        const std::vector<Step>& steps, const AccuracyDevice& device);
 

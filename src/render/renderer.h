@@ -31,7 +31,7 @@
 
 namespace shoal {
 
-// What a picture may do without, to be drawn sooner.
+// The parts that a picture may do without, to be drawn sooner.
 struct Quality {
     int samples = 4;        // a pixel; reduced to what the context has
     bool shadows = true;    // of the sun, but those of what stands still on far ground

@@ -31,7 +31,7 @@ class SurfaceDrawer {
     bool castsStill() const;                     // something that stands still casts a shadow
     bool refracts() const { return refracts_; }  // then what is not blended has to be at hand as a picture
 
-    // Of what moves, at a time in s; without a time: of what stands still.
+    // Draws what moves, at a time in s; without a time what stands still.
     void drawShadows(const ShadowMap& shadow, std::optional<double> time) const;
     void draw(const Eye& eye, const Lighting& lighting, double time, bool multisampled) const;
     // From back to front. `behind`: the light of all that is not blended, and its depth; only where it

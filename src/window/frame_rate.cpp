@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "measure/timing.h"
 
 namespace shoal::window {
 
@@ -16,12 +17,6 @@ constexpr int patience = 600;                              // frames
 void remember(std::vector<double>& values, double value) {
     if (values.size() == remembered) values.erase(values.begin());
     values.push_back(value);
-}
-
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 }  // namespace
@@ -37,7 +32,7 @@ void FrameRate::took(double seconds, double drawing) {
     remember(seconds_, seconds);
     remember(drawing_, drawing);
     if (++frames_ < fewest) return;
-    const double frame = medianOf(seconds_), picture = medianOf(drawing_);
+    const double frame = measure::spreadOf(seconds_).median, picture = measure::spreadOf(drawing_).median;
     rest_ = std::max(0.0, frame - picture);
     // Where all else is slow, a third of the frame is the picture's: less would not be seen in the rate.
     const double most = std::max(budget - rest_, rest_ / 2);

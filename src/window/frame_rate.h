@@ -24,7 +24,7 @@ constexpr std::array<PictureLevel, 8> pictureLevels = {{{},
                                                         {0.5, {1, false, false}, 0.18},
                                                         {0.35, {1, false, false}, 0.13},
                                                         {0.25, {1, false, false}, 0.1}}};
-// What a picture does without, such as "0.5 of its width, 1 sample a pixel"; empty: nothing.
+// Says what a picture does without, such as "0.5 of its width, 1 sample a pixel"; empty: nothing.
 std::string told(const PictureLevel& level);
 
 class FrameRate {

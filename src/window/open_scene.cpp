@@ -40,7 +40,7 @@ void OpenScene::follow() {
     camera.start(View::fromCamera(running.scene().camera));
     reload.follow(running, false);
     timeLine.forget();
-    picture.forget();
+    picture.rate.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
     explanations = std::make_unique<Explanations>(simulation().context(), running.scene(), plan);

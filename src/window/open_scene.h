@@ -29,14 +29,13 @@ class ScenePicture {
     void draw(OpenScene& open, const Frame& frame, bool force);
     bool rests() const { return rests_ && full_; }
     bool missesRate();  // at the least that there is; says so once
-    void forget() { rate.forget(); }
 
     FrameRate rate;
 
   private:
     void drawAt(OpenScene& open, const Frame& frame, const PictureLevel& level);
 
-    // What is seen, beside what the user changes.
+    // The view that is seen, beside what the user changes.
     struct Seen {
         View view;
         int width = 0, height = 0, builds = 0;

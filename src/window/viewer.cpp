@@ -128,7 +128,7 @@ class Viewer : public WindowLoop {
     bool rests() override { return !open_ || open_->picture.rests(); }
 
     void takePicture() {
-        drawPictureOf(*open_, true, true);
+        drawPictureOf(*open_, false, true);
         captures_.takePicture(open_->running);
     }
 

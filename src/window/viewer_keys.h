@@ -1,4 +1,4 @@
-// What the keys of the viewer do, for its help.
+// The keys of the viewer, for its help.
 #pragma once
 
 #include "window/notices.h"

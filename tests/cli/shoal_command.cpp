@@ -171,6 +171,10 @@ void StartedShoal::send(int signal, bool toAll) {
     REQUIRE(::kill(toAll ? -process_ : process_, signal) == 0);
 }
 
+std::string withoutWaits(const std::string& err) {
+    return std::regex_replace(err, std::regex("shoal: waiting for the driver[^\n]*\n"), "");
+}
+
 Outcome StartedShoal::finish() {
     const double end = secondsNow() + seconds_;
     while (readSome(out_, err_, outcome_, 100) && !outcome_.late)
@@ -181,8 +185,7 @@ Outcome StartedShoal::finish() {
     process_ = -1;
     if (WIFEXITED(status)) outcome_.code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) outcome_.signal = WTERMSIG(status);
-    // a loaded machine compiles slowly, and is told so
-    outcome_.err = std::regex_replace(outcome_.err, std::regex("shoal: waiting for the driver[^\n]*\n"), "");
+    outcome_.err = withoutWaits(outcome_.err);
     if (outcome_.late) outcome_.err += "\n(ended by the test: it took longer than the time limit)";
     return outcome_;
 }

@@ -22,6 +22,9 @@ struct Outcome {
     JsonValue json() const;  // standard output, read strictly
 };
 
+// Leaves the lines out that tell of a driver that compiles, as a loaded machine is told.
+std::string withoutWaits(const std::string& err);
+
 struct Surroundings {
     std::string folder = {};  // where it starts; empty: where the test runs
     std::map<std::string, std::optional<std::string>> environment =

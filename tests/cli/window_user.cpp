@@ -79,7 +79,7 @@ Outcome inWindow(const Words& arguments, const std::string& steps, const Surroun
     };
     Outcome out;
     out.out = written("out");
-    out.err = written("err");
+    out.err = withoutWaits(written("err"));
     const std::string code = written("code");
     if (!code.empty() && std::stoi(code) < 128) out.code = std::stoi(code);
     INFO(script.err << out.out << out.err);

@@ -1,4 +1,4 @@
-// What is told of a molecule: the sheet of any, the trial and the page of one that was made.
+// Reports of a molecule: the sheet of any, the trial and the page of one that was made.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace shoal::app {
 
-// What came of two seconds as in a scene, before the molecule is written: what does not run is not kept.
+// A run of two seconds as in a scene, before the molecule is written: what does not run is not kept.
 struct Trial {
     static constexpr int frames = 120;  // of 1/60 s
     std::string solver;                 // as "auto" chose it

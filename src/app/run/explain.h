@@ -1,4 +1,4 @@
-// What `shoal explain` measures on a device: --cost and --passes.
+// The parts of `shoal explain` that a device is asked for: --cost and --passes.
 #pragma once
 
 #include <optional>
