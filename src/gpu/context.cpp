@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/cache_folder.h"
+#include "core/contract.h"
 #include "core/data_paths.h"
 #include "core/error.h"
 #include "core/printable.h"
@@ -65,7 +66,7 @@ static void enter(Context::State& state, bool fresh) {
     state.platform->makeCurrent();
     currentState = &state;
     const Loader loader = state.platform->loader();
-    setCurrentLoader(loader, state.platform->window() != nullptr);
+    setCurrentLoader(loader, state.platform->isWindow());
     if (fresh || glewLoader != loader) initGlew(loader);
 }
 
@@ -228,9 +229,8 @@ static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptio
 // A process that has had a context tries none in a child: what a driver has begun does not go on in a fork.
 static bool hadContext = false;
 
-static std::string crashOf(ContextKind kind, ContextOptions options) {
+static std::string crashOf(ContextKind kind, const ContextOptions& options) {
     if (hadContext) return {};
-    options.visible = false;
     return crashInChild([&] { (void)open(kind, options).release(); });
 }
 
@@ -283,8 +283,13 @@ void Context::makeCurrent() {
 bool Context::isCurrent() const {
     return state_ != nullptr && currentState == state_.get();
 }
-GLFWwindow* Context::window() const {
-    return state_->platform->window();
+void Context::leave() {
+    if (isCurrent()) leaveCurrent();
+}
+GLFWwindow* Context::openWindow(int width, int height) const {
+    GLFWwindow* window = state_->platform->openWindow(width, height);
+    EXPECTS(window != nullptr && "only a window's context shares with a window");
+    return window;
 }
 
 void Context::checkErrors(const char* where) {
@@ -317,8 +322,6 @@ static ContextOptions probeOptions(ContextKind kind, std::optional<int> device) 
     ContextOptions out;
     out.kind = kind;
     out.device = device;
-    out.width = out.height = 64;
-    out.visible = false;
     return out;
 }
 

@@ -1,9 +1,9 @@
 // An OpenGL core context of 3.3 or newer: in a window (GLFW), on EGL without a display, or on OSMesa.
 //
 // One binary holds all three and none is linked: libEGL and libOSMesa are opened when they are asked for.
-// One thread uses OpenGL: GLEW's function pointers belong to the process, so contexts of different kinds may
-// live side by side, but only the one made current last may be used. Textures, buffers and the like must be
-// destroyed before their context and while it is current.
+// One thread at a time uses a context: GLEW's function pointers belong to the process, so contexts of
+// different kinds may live side by side, but only the one made current last may be used. Textures, buffers
+// and the like must be destroyed before their context and while it is current.
 #pragma once
 
 #include <cstddef>
@@ -75,10 +75,7 @@ bool hasDisplay();
 
 struct ContextOptions {
     ContextKind kind = ContextKind::automatic;
-    int width = 1280, height = 720;  // of the window, in screen units; the others draw into framebuffers
-    std::string title = "Shoal";
-    bool visible = true;        // window: shown at once
-    bool preferWindow = false;  // automatic: a window where there is a display, else headless
+    bool preferWindow = false;  // automatic: where there is a display a window's, else headless
     bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
     // The functions of OpenGL by name (as eglGetProcAddress gives them): the caller has made a context, which
     // is current now and whenever Shoal is called. It is never released or destroyed.
@@ -133,6 +130,8 @@ class Context {
     explicit Context(const ContextOptions& options = {});
 
     void makeCurrent();
+    // Another thread may make it current afterwards.
+    void leave();
     bool isCurrent() const;
     const ContextInfo& info() const { return state_->info; }
     Traffic& traffic() { return state_->traffic; }
@@ -143,7 +142,10 @@ class Context {
     // Files on disk that programs of this context were made of.
     const std::set<std::string>& shaderFiles() const { return state_->shaderFiles; }
     void noteShaderFile(const std::string& file) { state_->shaderFiles.insert(file); }
-    GLFWwindow* window() const;  // null unless this is a window
+    // Opens a window with a context of its own, which shares textures and buffers with this one. This one
+    // must be of the kind `window`, which itself never shows; the caller destroys the window first. Error:
+    // none is to be had.
+    GLFWwindow* openWindow(int width, int height) const;
     // Error: OpenGL reports a mistake since the last call; `where` names the work that was done.
     void checkErrors(const char* where);
     // DeviceLost: the driver has reset the device since the context was made. Below OpenGL 4.5, and where the

@@ -1,4 +1,5 @@
-// A context in a window, through GLFW (X11 or Wayland, whichever GLFW was built for).
+// A context of a window that is never shown, through GLFW (X11 or Wayland, whichever GLFW was built for), and
+// windows that show what is drawn in it.
 
 #include "core/error.h"
 #include "core/file.h"
@@ -43,7 +44,10 @@ class WindowPlatform final : public Platform {
     explicit WindowPlatform(const ContextOptions& options) {
         std::string reason;
         for (const AskedVersion version : askedVersions) {
-            window_ = create(options, version);
+            hint(options.debug, version);
+            constexpr int side = 64;  // nothing is drawn into it
+            window_ = glfwCreateWindow(side, side, "Shoal", nullptr, nullptr);
+            version_ = version, debug_ = options.debug;
             if (window_ != nullptr) break;
             const char* text = nullptr;
             const int code = glfwGetError(&text);
@@ -65,24 +69,32 @@ class WindowPlatform final : public Platform {
     void release() override { glfwMakeContextCurrent(nullptr); }
     Loader loader() const override { return &glfwGetProcAddress; }
     std::string description() const override { return concat("window, GLFW ", glfwGetVersionString()); }
-    GLFWwindow* window() const override { return window_; }
+    bool isWindow() const override { return true; }
+    GLFWwindow* openWindow(int width, int height) const override {
+        hint(debug_, version_);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+        GLFWwindow* window = glfwCreateWindow(width, height, "Shoal", nullptr, window_);
+        if (window == nullptr) throw Error("no window: " + lastGlfwError());
+        return window;
+    }
 
   private:
-    static GLFWwindow* create(const ContextOptions& options, AskedVersion version) {
+    static void hint(bool debug, AskedVersion version) {
         glfwDefaultWindowHints();
-        glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
-        glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
         if (!version.any()) {
             glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, version.major);
             glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, version.minor);
             glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
             glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
         }
-        return glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
     }
 
     GlfwSession session_;
     GLFWwindow* window_ = nullptr;
+    AskedVersion version_{0, 0};
+    bool debug_ = false;
 };
 
 }  // namespace

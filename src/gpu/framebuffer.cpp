@@ -112,11 +112,6 @@ void Framebuffer::bind(int x, int y, int width, int height) const {
     glViewport(x, y, width, height);
 }
 
-void Framebuffer::bindDefault(int width, int height) {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
-}
-
 void Framebuffer::blit(const Framebuffer& other, GLbitfield what) const {
     EXPECTS(width_ == other.width_ && height_ == other.height_);
     FrameRecord::add(what == GL_DEPTH_BUFFER_BIT ? "copy of depth" : "copy of light", {}, {}, {}, {});

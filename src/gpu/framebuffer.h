@@ -34,14 +34,12 @@ class Framebuffer {
 
     void bind() const { bind(0, 0, width_, height_); }  // viewport: all of it
     void bind(int x, int y, int width, int height) const;
-    // The window's own framebuffer.
-    static void bindDefault(int width, int height);
 
     // Copies the first colour, resolving samples. Sizes must be equal.
     void blitTo(const Framebuffer& other) const { blit(other, GL_COLOR_BUFFER_BIT); }
     // Copies the depth, one sample of each pixel. Sizes and formats must be equal.
     void blitDepthTo(const Framebuffer& other) const { blit(other, GL_DEPTH_BUFFER_BIT); }
-    // Copies the first colour into a framebuffer that is not ours, 0 for the window's. LINEAR where the sizes
+    // Copies the first colour into a framebuffer that is not ours. LINEAR where the sizes
     // differ and there is 1 sample.
     void blitTo(GLuint framebuffer, int width, int height) const;
 

@@ -32,7 +32,8 @@ class Platform {
     virtual void release() = 0;  // afterwards nothing is current on this thread
     virtual Loader loader() const = 0;
     virtual std::string description() const = 0;
-    virtual GLFWwindow* window() const { return nullptr; }
+    virtual bool isWindow() const { return false; }
+    virtual GLFWwindow* openWindow(int, int) const { return nullptr; }
 };
 
 // Error: cannot be had, and why. Nothing may be current when they are called.

@@ -133,12 +133,12 @@ void put(std::vector<GLuint>& names, size_t place, GLuint what) {
 }
 
 std::mutex firstGuard;
-std::string first;  // label of the program that is made, or used for the first time
+FirstUse first;
 std::atomic<bool> isFirst = false;
 
-void beginFirstUse(const std::string& label) {
+void beginFirstUse(const std::string& label, double seconds) {
     const std::lock_guard lock(firstGuard);
-    first = label;
+    first = {label, seconds};
     isFirst = true;
 }
 
@@ -149,6 +149,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
                     : !options.compute.empty() ? options.compute
                                                : options.fragment;
     const ContextInfo& info = context.info();
+    slots_->seconds = info.software ? options.seconds : 0;
     if (!options.compute.empty() && !info.computeShaders)
         throw Error(
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
@@ -161,7 +162,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
         for (const std::string& file : stage.source.files)
             if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
-    beginFirstUse(slots_->label);
+    beginFirstUse(slots_->label, slots_->seconds);
     if (!context.cache().active()) {
         compileAndLink(id(), stages, options, slots_->label);
     } else {
@@ -221,7 +222,7 @@ void Program::use() const {
     slotsInUse = slots_;
     if (used_) return endFirstUse();
     used_ = true;
-    beginFirstUse(slots_->label);
+    beginFirstUse(slots_->label, slots_->seconds);
 }
 
 void beginPass() {
@@ -242,9 +243,9 @@ void beginPass() {
 #endif
 }
 
-std::string firstUse() {
+FirstUse firstUse() {
     const std::lock_guard lock(firstGuard);
-    return isFirst ? first : "";
+    return isFirst ? first : FirstUse();
 }
 
 void endFirstUse() {

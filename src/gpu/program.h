@@ -29,6 +29,7 @@ struct ProgramOptions {
     std::string compute = {};  // a compute program: its file; vertex and fragment stay empty
     std::function<void(ShaderSource&)> rewrite = {};  // changes a stage's text once its includes are in
     const ArrayTable* arrays = nullptr;               // what its #pragma reads, writes and updates name
+    double seconds = 0;  // that a CPU rasteriser takes to compile it, about; 0: not known, or not long
 };
 
 class Program {
@@ -87,6 +88,7 @@ class Program {
     // The textures and buffers that its samplers and blocks were given last, by unit and by binding.
     struct Slots {
         std::string label;
+        double seconds = 0;  // of compiling it on a CPU rasteriser, about
         std::vector<std::string> samplers, blocks, written, updated;
         std::vector<GLuint> textures, buffers;
     };
@@ -108,10 +110,14 @@ class Program {
 // records the pass (gpu/frame_record.h).
 void beginPass();
 
-// Returns the label of the program that is being made or used for the first time, when rasterisers compile
-// it, for any thread to ask; empty: there is none.
-std::string firstUse();
-// Ends the first use: firstUse() is empty from here on.
+// The first use of a program, when rasterisers compile it.
+struct FirstUse {
+    std::string label;
+    double seconds = 0;  // of compiling it, about; 0: not known
+};
+// Returns what is being made or used for the first time, for any thread to ask; an empty label: nothing is.
+FirstUse firstUse();
+// Ends the first use: there is none from here on.
 void endFirstUse();
 
 // Programs of one owner by what they are made of: whoever asks for the same gets the same program, under the

@@ -59,7 +59,6 @@ Device& deviceOf(std::optional<int> number) {
     Device*& device = devices()[number];
     if (!device) {
         gpu::ContextOptions options = gpu::contextOptions();
-        options.visible = false;
         options.device = number;
         if (number) options.kind = gpu::ContextKind::egl;
         device = new Device(options);

@@ -84,8 +84,9 @@ class Renderer {
     // Into the renderer's own picture; nothing of OpenGL's state is kept from before nor restored afterwards,
     // except that blending, depth and face culling are off at the end.
     void draw(const StateView& state, const View& view, Overlay* overlay = nullptr);
-    // The last picture into the window's framebuffer, or another one of the context.
-    void present(int width, int height, unsigned framebuffer = 0) const {
+    const gpu::Texture& picture() const { return picture_; }  // the last one
+    // The last picture into another framebuffer of the context.
+    void present(int width, int height, unsigned framebuffer) const {
         pictureTarget_.blitTo(framebuffer, width, height);
     }
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.

@@ -1,19 +1,17 @@
 #include "run/progress.h"
 
-#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <set>
 
 #include "core/activity.h"
 #include "core/cache_folder.h"
 #include "core/printable.h"
 #include "gpu/program.h"
+#include "run/signals.h"
 
 namespace shoal {
 
@@ -97,17 +95,26 @@ void FieldWatch::show(double share) {
     bar_->reach(percent);
 }
 
-namespace {
-
-std::string whatGoesOn() {
-    const std::string compiled = gpu::firstUse();
-    if (!compiled.empty())
-        return concat("waiting for the driver, which compiles \"", compiled, "\" (its cache keeps that)");
-    const std::string other = activity();
-    return other.empty() ? "" : concat("still ", other);
+double Busy::share() const {
+    constexpr double last = 0.99;  // until it is done
+    return expected > 0 ? std::min(seconds / expected, last) : 0;
 }
 
-}  // namespace
+std::string Busy::text() const {
+    return expected > 0 ? concat(what, ", about ", roughly(expected)) : what;
+}
+
+Busy BusyClock::look() {
+    const gpu::FirstUse compiled = gpu::firstUse();
+    Busy busy;
+    busy.what = compiled.label.empty() ? activity() : concat("compiling \"", compiled.label, "\"");
+    busy.expected = compiled.seconds;
+    const Clock::time_point current = Clock::now();
+    if (busy.what != last_) since_ = current;
+    busy.seconds = std::chrono::duration<double>(current - since_).count();
+    last_ = busy.what;
+    return busy;
+}
 
 BusyWatch::BusyWatch(std::function<void(const std::string&)> tell, std::chrono::milliseconds patience)
     : tell_(std::move(tell)), patience_(patience), thread_([this] { watch(); }) {}
@@ -126,21 +133,25 @@ BusyWatch::~BusyWatch() {
 }
 
 void BusyWatch::watch() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are the main thread's
-    std::string last;
-    std::set<std::string> told;
-    Clock::time_point since;
+    leaveSignalsToMain();
+    BusyClock clock;
     std::unique_lock lock(guard_);
-    while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; })) {
-        const std::string current = whatGoesOn();
-        if (current != last) since = Clock::now();
-        if (!current.empty() && current == last && Clock::now() - since >= patience_ &&
-            told.insert(current).second)
-            tell_(current);
-        last = current;
+    while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; }))
+        show(clock.look());
+    bar_.reset();
+}
+
+void BusyWatch::show(const Busy& busy) {
+    const bool waits = !busy.what.empty() && busy.seconds >= std::chrono::duration<double>(patience_).count();
+    if (waits && told_.insert(busy.what).second) {
+        bar_.reset();
+        if (busy.expected > 0 && ::isatty(2) != 0)
+            bar_.emplace(busy.what, 100);
+        else
+            tell_(busy.text());
     }
+    if (!waits) bar_.reset();
+    if (bar_) bar_->reach(int(100 * busy.share()));
 }
 
 std::string roughly(double seconds) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -62,8 +63,27 @@ class FieldWatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Tells, each once, what has been going on for so long while this lives: which program the driver compiles,
-// or else the Activity (core/activity.h).
+// What the program waits for: a driver that compiles, or else an Activity (core/activity.h).
+struct Busy {
+    std::string what;     // empty: nothing
+    double seconds = 0;   // that it took so far
+    double expected = 0;  // s, that it takes in all, about; 0: not known
+
+    double share() const;      // of it that is done, about; below 1, and 0 where it is not known
+    std::string text() const;  // "compiling "leaf", about 7 s"
+};
+
+class BusyClock {
+  public:
+    Busy look();
+
+  private:
+    std::string last_;
+    std::chrono::steady_clock::time_point since_;
+};
+
+// Tells, each once, what has been going on for so long while this lives, with a bar on a terminal where it is
+// known how long it takes.
 class BusyWatch {
   public:
     explicit BusyWatch(std::function<void(const std::string&)> tell = say,
@@ -74,10 +94,13 @@ class BusyWatch {
 
   private:
     static void say(const std::string& what);  // on stderr
+    void show(const Busy& busy);
     void watch();
 
     std::function<void(const std::string&)> tell_;
     std::chrono::milliseconds patience_;
+    std::set<std::string> told_;
+    std::optional<Progress> bar_;  // of the last that was told
     std::mutex guard_;
     std::condition_variable end_;
     bool ends_ = false;

@@ -68,6 +68,12 @@ FinishesOnSignal::~FinishesOnSignal() {
     finishes = false;
 }
 
+void leaveSignalsToMain() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
 int signalThatAsked() {
     return asked;
 }

@@ -21,6 +21,7 @@ class FinishesOnSignal {
     FinishesOnSignal& operator=(const FinishesOnSignal&) = delete;
 };
 
+void leaveSignalsToMain();                  // called by another thread, which no signal interrupts then
 int signalThatAsked();                      // 0: none yet
 std::string stoppedBySignal();              // "stopped by signal 2 (Interrupt)", of the one that asked
 [[noreturn]] void endBySignal(int signal);  // so that whoever waits for the program sees the signal

@@ -101,11 +101,11 @@ float points(float count) {
     return std::round(count * unitsPerPoint);
 }
 
-void Interface::begin() {
+void Interface::begin(bool waits) {
     const Density current = density();
     if (!(current == made_)) makeFont(current);
     const bool chooses = ImGui::GetIO().NavVisible || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    input_->next(chooses);
+    if (!waits) input_->next(chooses);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     input_->settle();

@@ -83,8 +83,9 @@ class Interface {
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    void begin();  // of a frame; what the user does in it is in input()
-    void end();    // draws the panels over what is there
+    // Of a frame; what the user does in it is in input(). `waits`: this frame takes nothing of that.
+    void begin(bool waits = false);
+    void end();  // draws the panels over what is there
     Input& input() { return *input_; }
     double pixelsPerPoint() const { return double(made_.unitsPerPoint * made_.pixelsPerUnit); }
 

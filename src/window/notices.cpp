@@ -122,10 +122,11 @@ void StatusLine::draw(const std::string& instead) {
     ImGui::End();
 }
 
-void drawOpening(const std::string& file) {
+void drawWaiting(const std::string& words, double share) {
     centered();
-    ImGui::Begin("Opening", nullptr, plainWindow);
-    ImGui::TextWrapped("Opening %s ...", std::filesystem::path(file).filename().string().c_str());
+    ImGui::Begin("Waiting", nullptr, plainWindow | ImGuiWindowFlags_NoInputs);
+    ImGui::TextWrapped("%s", words.c_str());
+    if (share > 0) ImGui::ProgressBar(float(share), ImVec2(points(380), points(10)), "");
     ImGui::End();
 }
 

@@ -64,7 +64,8 @@ class StatusLine {
     double saidAt_ = -1e9;  // s
 };
 
-void drawOpening(const std::string& file);  // that a scene is being opened
+// Says what the window waits for, with a bar for the share of it that is done, where that is not 0.
+void drawWaiting(const std::string& words, double share);
 
 // Asks whether to save before `what` goes on ("close").
 enum class Answer { none, save, discard, stay };

@@ -2,10 +2,12 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <utility>
 
+#include "core/activity.h"
 #include "core/error.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
@@ -30,12 +32,14 @@ struct Wish {
 class Viewer : public WindowLoop {
   public:
     Viewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded)
-        : WindowLoop(options.window, context), options_(options), chooser_(context) {
-        if (loaded)
-            open_ = std::make_unique<OpenScene>(options.run, context, std::move(*loaded), width(), height());
+        : WindowLoop(options.window, context),
+          options_(options),
+          chooser_(context),
+          loaded_(std::move(loaded)) {
+        if (loaded_)
+            entitle(loaded_->scene.file, false);
         else
             listScenes();
-        if (open_ && options.edits) open_->scenePanel.showWhole();
     }
 
     void run() {
@@ -59,13 +63,15 @@ class Viewer : public WindowLoop {
     }
 
     void drawPicture() override {
+        if (loaded_) {
+            open_ =
+                std::make_unique<OpenScene>(options_.run, context(), std::move(*loaded_), width(), height());
+            loaded_.reset();
+            if (options_.edits) open_->scenePanel.showWhole();
+        }
         if (open_) {
             if (open_->reload.update(open_->running, wallTime())) takeReloaded();
             drawScene();
-        } else {
-            gpu::Framebuffer::bindDefault(width(), height());
-            glClearColor(0.1f, 0.13f, 0.12f, 1);
-            glClear(GL_COLOR_BUFFER_BIT);
         }
         if (chooser_.changed(wallTime()) && chooser_.open) listScenes();
     }
@@ -73,11 +79,7 @@ class Viewer : public WindowLoop {
     void drawInterface() override {
         wish_ = Wish();
         if (open_) drawOpenScene();
-        if (!opening_.empty()) {
-            drawOpening(opening_);
-        } else if (chooser_.open) {
-            wish_.open = chooser_.draw(!open_, open_ ? std::string() : troubles.text());
-        }
+        if (chooser_.open) wish_.open = chooser_.draw(!open_, open_ ? std::string() : troubles.text());
         if (!chooser_.open) troubles.end("opening");
         if (helps_) helps_ = showHelp("Keys", keysHelp);
         pressKeys();
@@ -108,7 +110,7 @@ class Viewer : public WindowLoop {
         // and its files are watched from then on
         const size_t files = context().shaderFiles().size();
         if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
-        open.running.renderer().present(width(), height());
+        show(open.running.renderer().picture());
         lastFrame_ = context().traffic() - before;
         if (steps) captures_.add(open.running);
     }
@@ -287,11 +289,10 @@ class Viewer : public WindowLoop {
         }
     }
 
-    // After a frame that says so, because it may take a while.
     void openNow() {
-        if (std::exchange(saidOpening_, !saidOpening_) == false) return;
         if (open_) captures_.endVideo(open_->running);
         const std::string file = std::exchange(opening_, {});
+        const Activity opening(concat("opening ", std::filesystem::path(file).filename().string()));
         RunRequest request = options_.run.forAnother();
         try {
             Loaded loaded = loadScene(file, request);
@@ -412,11 +413,12 @@ class Viewer : public WindowLoop {
 
     const ViewerOptions& options_;
     SceneChooser chooser_;
+    std::optional<Loaded> loaded_;     // the first scene, until it is open
     std::unique_ptr<OpenScene> open_;  // null: nothing was chosen yet
     std::string opening_;              // a scene's file
     Wish wish_;
     std::optional<Wish> asked_;  // to close or open, while something is not saved
-    bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
+    bool discards_ = false, shownUnsaved_ = false, steps_ = false;
     size_t shaderFiles_ = 0;
     gpu::Traffic lastFrame_;
     Captures captures_{troubles};

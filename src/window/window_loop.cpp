@@ -18,17 +18,34 @@ namespace shoal::window {
 WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
     : options_(std::move(options)),
       context_(context),
-      window_(context.window()),
-      interface_(window_, options_.scale) {
+      window_(context.openWindow(options_.width, options_.height)) {
+    context_.leave();
+    glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwGetFramebufferSize(window_, &width_, &height_);
+    interface_.emplace(window_, options_.scale);
+    glGenFramebuffers(1, &source_);
+    glfwMakeContextCurrent(nullptr);
+    context_.makeCurrent();
+}
+
+WindowLoop::~WindowLoop() {
+    context_.leave();
+    glfwMakeContextCurrent(window_);
+    interface_.reset();
+    glfwMakeContextCurrent(nullptr);
+    glfwDestroyWindow(window_);
+    context_.makeCurrent();
 }
 
 void WindowLoop::go() {
+    ContextThread thread(context_);
+    thread_ = &thread;
+    glfwMakeContextCurrent(window_);
     auto last = std::chrono::steady_clock::now();
     while (!ends()) {
         constexpr double pause = 0.05;  // s
-        if (rests() && !interface_.input().waits())
+        if (rests() && !interface_->input().waits())
             glfwWaitEventsTimeout(pause);
         else
             glfwPollEvents();
@@ -62,15 +79,72 @@ bool WindowLoop::showFrame() {
     }
     const bool last = options_.frames && shown_ + 1 >= *options_.frames;
     saves_ = saves_ || (last && !options_.screenshot.empty());
-    drawPicture();
-    interface_.begin();
-    drawInterface();
-    interface_.end();
+    work(&WindowLoop::drawPicture);
+    presentPicture();
+    interface_->begin();
+    thread_->begin([this] { drawInterface(); });
+    thread_->finish();
+    interface_->end();
     ++shown_;
     if (saves_) saveScreenshot();
     glfwSwapBuffers(window_);
-    obey();
+    work(&WindowLoop::obey);
+    if (!title_.empty()) glfwSetWindowTitle(window_, std::exchange(title_, {}).c_str());
+    if (std::exchange(closes_, false)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
     return !last;
+}
+
+// Does a part of the frame, and lets the window go on where that takes long.
+void WindowLoop::work(void (WindowLoop::*part)()) {
+    constexpr std::chrono::milliseconds patience(500), pause(100);
+    thread_->begin([this, part] { (this->*part)(); });
+    for (auto time = patience; !thread_->waits(time); time = pause) {
+        glfwPollEvents();
+        const Busy busy = busy_.look();
+        if (!busy.what.empty()) tellWaiting(busy);
+    }
+    thread_->finish();
+}
+
+void WindowLoop::tellWaiting(const Busy& busy) {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    if (width < 1 || height < 1) return;
+    presentPicture();
+    interface_->begin(true);
+    drawWaiting(busy.text(), busy.share());
+    interface_->end();
+    glfwSwapBuffers(window_);
+}
+
+void WindowLoop::show(const gpu::Texture& picture) {
+    if (picture_.drawn != nullptr) glDeleteSync(picture_.drawn);
+    picture_ = {picture.id(), picture.width(), picture.height(), nullptr};
+    picture_.drawn = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    // A rasteriser draws for the other context without waiting for this one.
+    context_.info().software ? glFinish() : glFlush();
+    isNew_ = true;
+}
+
+void WindowLoop::presentPicture() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glDisable(GL_SCISSOR_TEST);
+    if (picture_.texture == 0) {
+        glClearColor(0.1f, 0.13f, 0.12f, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+    } else {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, source_);
+        if (std::exchange(isNew_, false)) {
+            glWaitSync(picture_.drawn, 0, GL_TIMEOUT_IGNORED);
+            glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_.texture,
+                                   0);
+        }
+        const bool same = picture_.width == width_ && picture_.height == height_;
+        glBlitFramebuffer(0, 0, picture_.width, picture_.height, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                          same ? GL_NEAREST : GL_LINEAR);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    }
+    glViewport(0, 0, width_, height_);
 }
 
 void WindowLoop::saveScreenshot() const {
@@ -89,13 +163,9 @@ double WindowLoop::wallTime() {
     return glfwGetTime();
 }
 
-void WindowLoop::close() {
-    glfwSetWindowShouldClose(window_, GLFW_TRUE);
-}
-
 void WindowLoop::entitle(const std::string& file, bool unsaved) {
     const std::string name = printable(std::filesystem::path(file).filename().string());
-    glfwSetWindowTitle(window_, concat("Shoal - ", name, unsaved ? " *" : "").c_str());
+    title_ = concat("Shoal - ", name, unsaved ? " *" : "");
 }
 
 }  // namespace shoal::window

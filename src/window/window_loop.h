@@ -1,11 +1,20 @@
 // The loop of every window: frame by frame what the user did, the picture, the panels over it and the screen,
 // until the window closes. What is shown, and what is done about it, is a class of its own (viewer.cpp,
 // editor/editor_window.cpp).
+//
+// There are two threads and two contexts. The main thread has the window's: it takes events, shows the
+// picture and draws the panels. All the rest is done by the other, which alone uses the context of the scene.
+// While that is busy, mostly because a driver compiles, the window goes on, shows the last picture, and says
+// what it waits for.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gpu/context.h"
+#include "gpu/texture.h"
+#include "run/progress.h"
+#include "window/context_thread.h"
 #include "window/interface.h"
 #include "window/notices.h"
 #include "window/windows.h"
@@ -14,18 +23,18 @@ namespace shoal::window {
 
 class WindowLoop {
   public:
-    // `context` has a window.
+    // `context` is a window's and current, and so it is again after go().
     WindowLoop(WindowOptions options, gpu::Context& context);
-    virtual ~WindowLoop() = default;
+    virtual ~WindowLoop();
     WindowLoop(const WindowLoop&) = delete;
     WindowLoop& operator=(const WindowLoop&) = delete;
 
     void go();  // until the window closes
 
   protected:
-    // ---- A frame, in this order
+    // ---- A frame, in this order, in the context of the scene
 
-    virtual void drawPicture() = 0;
+    virtual void drawPicture() = 0;    // and show() it
     virtual void drawInterface() = 0;  // over the picture; what the user did is in keys() and ImGui
     virtual void obey() = 0;           // does what was asked for, after the frame is on the screen
     // Whether nothing moves: then frames come when the user does something, and now and then.
@@ -38,8 +47,9 @@ class WindowLoop {
     // ---- For those
 
     gpu::Context& context() { return context_; }
-    Input& keys() { return interface_.input(); }
-    double pixelsPerPoint() const { return interface_.pixelsPerPoint(); }
+    void show(const gpu::Texture& picture);  // from this frame on, until another one is shown
+    Input& keys() { return interface_->input(); }
+    double pixelsPerPoint() const { return interface_->pixelsPerPoint(); }
     int width() const { return width_; }                   // pixels
     int height() const { return height_; }                 // pixels
     int shown() const { return shown_; }                   // frames
@@ -48,7 +58,7 @@ class WindowLoop {
     bool savesScreenshot() const { return saves_; }        // of this frame
     static double wallTime();                              // s
 
-    void close();                                         // after this frame, where mayClose() agrees
+    void close() { closes_ = true; }                      // after this frame, where mayClose() agrees
     void entitle(const std::string& file, bool unsaved);  // by the name of a file, which may lie in a folder
 
     Troubles troubles;
@@ -56,12 +66,29 @@ class WindowLoop {
   private:
     bool ends();
     bool showFrame();
+    void work(void (WindowLoop::*part)());
+    void tellWaiting(const Busy& busy);
+    void presentPicture();
     void saveScreenshot() const;
+
+    // The picture, as the thread of the scene has drawn it.
+    struct Picture {
+        unsigned texture = 0;
+        int width = 0, height = 0;
+        GLsync drawn = nullptr;
+    };
 
     WindowOptions options_;
     gpu::Context& context_;
     GLFWwindow* window_;
-    Interface interface_;
+    std::optional<Interface> interface_;
+    ContextThread* thread_ = nullptr;  // while the loop goes on
+    BusyClock busy_;
+    Picture picture_;
+    bool isNew_ = false,
+         closes_ = false;  // the picture, since it was presented; the window, after this frame
+    std::string title_;    // not set yet
+    unsigned source_ = 0;  // the framebuffer that holds the picture, in the window's context
     int width_ = 0, height_ = 0, shown_ = 0;
     bool saves_ = false;
     double lastSeconds_ = 0, frameSeconds_ = 0;

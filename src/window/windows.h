@@ -10,9 +10,10 @@
 namespace shoal::window {
 
 struct WindowOptions {
-    std::optional<double> scale;  // of the panels; nothing: as the window's screen asks for
-    std::optional<int> frames;    // to be shown, then it closes
-    std::string screenshot;       // a PNG of the window, panels and all, as it is when it closes
+    int width = 1280, height = 720;  // in screen units
+    std::optional<double> scale;     // of the panels; nothing: as the window's screen asks for
+    std::optional<int> frames;       // to be shown, then it closes
+    std::string screenshot;          // a PNG of the window, panels and all, as it is when it closes
 };
 
 struct ViewerOptions {
@@ -26,10 +27,9 @@ struct ViewerOptions {
 // frames that were asked for. Without a scene it lists those to choose from.
 void runViewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded);
 
-// Makes a window, so many pixels wide and high, in which the molecule of a file is edited while it moves,
-// until the user closes it. Where there is no file it begins as the shape of that name (author/shapes.h;
-// empty: the first), and saving makes the file. Error: the file's, or there is no window to be had.
-void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
-               int height);
+// Makes a window in which the molecule of a file is edited while it moves, until the user closes it. Where
+// there is no file it begins as the shape of that name (author/shapes.h; empty: the first), and saving makes
+// the file. Error: the file's, or there is no window to be had.
+void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options);
 
 }  // namespace shoal::window

@@ -26,8 +26,6 @@ int main(int argc, char** argv) {
         options.shaders = SHOAL_SOURCE_DIR "/shaders";
         if (const char* folder = std::getenv("SHOAL_CACHE")) options.cache = folder;
         options.kind = contextKind(word != nullptr ? word : "egl");
-        options.width = options.height = 64;
-        options.visible = false;
         Context context(options);
         sharedContext = &context;
         std::printf("%s: OpenGL %s on %s\n", context.info().platform.c_str(), context.info().version.c_str(),

@@ -28,7 +28,6 @@ gpu::ContextOptions hiddenContext(const Options& options) {
     gpu::ContextOptions out = gpu::contextOptions();
     out.kind = options.gpu ? gpu::ContextKind::egl : options.context;
     out.device = options.gpu;
-    out.visible = false;
     return out;
 }
 

@@ -326,7 +326,7 @@ static int listInstead(const Options& options) {
 }
 
 static window::WindowOptions windowOptions(const Options& options) {
-    return {options.scale, options.frames, options.screenshot};
+    return {options.width, options.height, options.scale, options.frames, options.screenshot};
 }
 
 // Whether a molecule is too large for one lane. Such molecules take long to plan, and contexts differ in the
@@ -353,19 +353,14 @@ int runCommand(const Options& options) {
     const bool plans = loaded && !options.error, large = plans && hasLarge(loaded->scene);
     if (plans && !large) planScene(*loaded);
     gpu::ContextOptions wanted = hiddenContext(options);
-    wanted.visible = true;
     wanted.preferWindow = window;
-    wanted.width = options.width;
-    wanted.height = options.height;
-    wanted.title = "Shoal";
-    if (loaded) wanted.title += " - " + printable(fs::path(options.files.front()).filename().string());
     gpu::Context context(wanted);
     if (large) {
         checkVertices(loaded->scene, options.path, limitsOf(context.info()));
         planScene(*loaded);
     }
     if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
-    if (context.window()) {
+    if (context.info().kind == gpu::ContextKind::window) {
         const std::string folder = chooses ? folderOf(options) : modelFolder();
         window::runViewer({windowOptions(options), options, folder, options.editsScene}, context,
                           std::move(loaded));
@@ -425,8 +420,7 @@ static int editScene(const Options& options) {
 
 int editCommand(const Options& options) {
     if (options.files.front().ends_with(".scene.json")) return editScene(options);
-    window::runEditor(options.files.front(), options.editShape, windowOptions(options), options.width,
-                      options.height);
+    window::runEditor(options.files.front(), options.editShape, windowOptions(options));
     return 0;
 }
 

@@ -70,10 +70,10 @@ class EditorWindow : public WindowLoop {
         advance();
         wobble();
         followPlay();
+        if (stage_.ready()) show(stage_.draw(view(), width(), height()));
     }
 
     void drawInterface() override {
-        if (stage_.ready()) stage_.draw(view(), width(), height());
         EditorAction action = drawPanels();
         pointer_.work(view());
         drawMolecule();
@@ -429,15 +429,10 @@ static Document documentOf(const std::string& file, const std::string& shapeName
     return Document(file, std::move(begin));
 }
 
-void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
-               int height) {
+void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options) {
     Document document = documentOf(file, shape);  // mistakes are told before there is a window
     gpu::ContextOptions wanted = gpu::contextOptions();
     wanted.kind = gpu::ContextKind::window;
-    wanted.preferWindow = true;
-    wanted.width = width;
-    wanted.height = height;
-    wanted.title = "Shoal - " + printable(std::filesystem::path(file).filename().string());
     gpu::Context context(wanted);
     EditorWindow(std::move(document), options, context).run();
 }

@@ -225,10 +225,10 @@ void EditorStage::wobble(const Mode& mode, double reach) {
     takePositions();
 }
 
-void EditorStage::draw(const View& view, int width, int height) {
+const gpu::Texture& EditorStage::draw(const View& view, int width, int height) {
     renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);
-    renderer_->present(width, height);
+    return renderer_->picture();
 }
 
 Image EditorStage::picture(const View& view, int width, int height) {

@@ -59,7 +59,7 @@ class EditorStage {
         if (wobbling_) seek(frame_);
     }
 
-    void draw(const View& view, int width, int height);  // into the window
+    const gpu::Texture& draw(const View& view, int width, int height);  // the picture
     Image picture(const View& view, int width, int height);
     // Positions of the vertices as they are drawn, m.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
