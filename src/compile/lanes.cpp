@@ -132,7 +132,8 @@ WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
     return out;
 }
 
-double secondsToCompile(const Plan& plan, const GroupPlan& group) {
+double secondsToCompile(const Plan& plan, const GroupPlan& group, Lanes lanes) {
+    if (lanes == Lanes::vertex) return 0;
     const double vertices = group.vertexCount;
     double ofEach = ofVertex;
     if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;

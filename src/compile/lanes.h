@@ -43,9 +43,9 @@ struct WorkgroupShape {
 // As many molecules as fit shared memory, up to 32; they must fit one at least (FusedLimits::vertices).
 WorkgroupShape workgroupShape(int vertices, int sharedBytes);
 
-// Returns about how long a CPU rasteriser takes to a group's first frame with a lane a molecule and no cache,
-// in seconds of a processor, with compute shaders.
-double secondsToCompile(const Plan& plan, const GroupPlan& group);
+// Returns about how long a CPU rasteriser takes to a group's first frame without a cache, in seconds of a
+// processor; 0: not long, as with a lane a vertex.
+double secondsToCompile(const Plan& plan, const GroupPlan& group, Lanes lanes = Lanes::molecule);
 // Whether that is so long that it is refused where there is no other form.
 bool takesLong(const Plan& plan, const GroupPlan& group);
 

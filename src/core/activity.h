@@ -1,7 +1,9 @@
 // An activity is what the program is busy with: BusyWatch (run/progress.h) tells those that take long.
 #pragma once
 
+#include <chrono>
 #include <string>
+#include <utility>
 
 namespace shoal {
 
@@ -15,9 +17,11 @@ class Activity {
 
   private:
     std::string outer_;
+    std::chrono::steady_clock::time_point outerBegan_;
 };
 
-// Returns what the innermost Activity says, for any thread to ask; empty: there is none.
-std::string activity();
+// Returns what the innermost Activity says and how long it has gone on, in s, for any thread to ask; empty:
+// there is none.
+std::pair<std::string, double> activity();
 
 }  // namespace shoal

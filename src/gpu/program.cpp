@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -134,11 +135,13 @@ void put(std::vector<GLuint>& names, size_t place, GLuint what) {
 
 std::mutex firstGuard;
 FirstUse first;
+std::chrono::steady_clock::time_point firstBegan;
 std::atomic<bool> isFirst = false;
 
-void beginFirstUse(const std::string& label, double seconds) {
+void beginFirstUse(FirstUse use) {
     const std::lock_guard lock(firstGuard);
-    first = {label, seconds};
+    first = std::move(use);
+    firstBegan = std::chrono::steady_clock::now();
     isFirst = true;
 }
 
@@ -149,7 +152,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
                     : !options.compute.empty() ? options.compute
                                                : options.fragment;
     const ContextInfo& info = context.info();
-    slots_->seconds = info.software ? options.seconds : 0;
+    slots_->expected = info.software ? options.seconds : 0;
     if (!options.compute.empty() && !info.computeShaders)
         throw Error(
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
@@ -162,7 +165,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
         for (const std::string& file : stage.source.files)
             if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
-    beginFirstUse(slots_->label, slots_->seconds);
+    beginFirstUse({slots_->label, slots_->expected});
     if (!context.cache().active()) {
         compileAndLink(id(), stages, options, slots_->label);
     } else {
@@ -177,6 +180,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
             context.cache().store(key, id());
         }
     }
+    slots_->spent = firstUse().seconds;
     endFirstUse();
     for (const Stage& stage : stages) {
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
@@ -220,15 +224,15 @@ void Program::use() const {
     glUseProgram(id());
     lastUsed = id();
     slotsInUse = slots_;
-    if (used_) return endFirstUse();
-    used_ = true;
-    beginFirstUse(slots_->label, slots_->seconds);
+    if (slots_->ran) return endFirstUse();
+    beginFirstUse({slots_->label, slots_->expected, slots_->spent});
 }
 
 void beginPass() {
     const std::shared_ptr<void> used = slotsInUse.lock();
     if (!used) return;
-    const auto& slots = *static_cast<const Program::Slots*>(used.get());
+    auto& slots = *static_cast<Program::Slots*>(used.get());
+    slots.ran = true;
     FrameRecord::add(slots.label, slots.samplers, slots.blocks, slots.written, slots.updated);
 #ifndef SHOAL_NO_CONTRACTS
     const auto check = [](const std::vector<std::string>& names, const std::vector<GLuint>& given,
@@ -245,7 +249,10 @@ void beginPass() {
 
 FirstUse firstUse() {
     const std::lock_guard lock(firstGuard);
-    return isFirst ? first : FirstUse();
+    if (!isFirst) return {};
+    FirstUse out = first;
+    out.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - firstBegan).count();
+    return out;
 }
 
 void endFirstUse() {

@@ -88,7 +88,8 @@ class Program {
     // The textures and buffers that its samplers and blocks were given last, by unit and by binding.
     struct Slots {
         std::string label;
-        double seconds = 0;  // of compiling it on a CPU rasteriser, about
+        double expected = 0, spent = 0;  // s, of compiling it on a CPU rasteriser: about, and so far
+        bool ran = false;
         std::vector<std::string> samplers, blocks, written, updated;
         std::vector<GLuint> textures, buffers;
     };
@@ -100,7 +101,6 @@ class Program {
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
-    mutable bool used_ = false;
     std::shared_ptr<Slots> slots_ = std::make_shared<Slots>();  // at one place when the program is moved
     std::set<std::string, std::less<>> declared_;               // uniforms
     std::set<std::string, std::less<>> declaredBlocks_;         // storage blocks
@@ -113,7 +113,8 @@ void beginPass();
 // The first use of a program, when rasterisers compile it.
 struct FirstUse {
     std::string label;
-    double seconds = 0;  // of compiling it, about; 0: not known
+    double expected = 0;  // s, about, of compiling it; 0: not known
+    double seconds = 0;   // so far
 };
 // Returns what is being made or used for the first time, for any thread to ask; an empty label: nothing is.
 FirstUse firstUse();

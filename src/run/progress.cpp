@@ -104,16 +104,12 @@ std::string Busy::text() const {
     return expected > 0 ? concat(what, ", about ", roughly(expected)) : what;
 }
 
-Busy BusyClock::look() {
+Busy busyWith() {
     const gpu::FirstUse compiled = gpu::firstUse();
-    Busy busy;
-    busy.what = compiled.label.empty() ? activity() : concat("compiling \"", compiled.label, "\"");
-    busy.expected = compiled.seconds;
-    const Clock::time_point current = Clock::now();
-    if (busy.what != last_) since_ = current;
-    busy.seconds = std::chrono::duration<double>(current - since_).count();
-    last_ = busy.what;
-    return busy;
+    if (!compiled.label.empty())
+        return {concat("compiling \"", compiled.label, "\""), compiled.seconds, compiled.expected};
+    const auto [what, seconds] = activity();
+    return {what, seconds};
 }
 
 BusyWatch::BusyWatch(std::function<void(const std::string&)> tell, std::chrono::milliseconds patience)
@@ -134,10 +130,9 @@ BusyWatch::~BusyWatch() {
 
 void BusyWatch::watch() {
     leaveSignalsToMain();
-    BusyClock clock;
     std::unique_lock lock(guard_);
     while (!end_.wait_for(lock, patience_ / 20, [this] { return ends_; }))
-        show(clock.look());
+        show(busyWith());
     bar_.reset();
 }
 

@@ -72,15 +72,7 @@ struct Busy {
     double share() const;      // of it that is done, about; below 1, and 0 where it is not known
     std::string text() const;  // "compiling "leaf", about 7 s"
 };
-
-class BusyClock {
-  public:
-    Busy look();
-
-  private:
-    std::string last_;
-    std::chrono::steady_clock::time_point since_;
-};
+Busy busyWith();
 
 // Tells, each once, what has been going on for so long while this lives, with a bar on a terminal where it is
 // known how long it takes.

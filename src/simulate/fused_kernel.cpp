@@ -6,6 +6,7 @@
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
+#include "compile/lanes.h"
 #include "compile/newton.h"
 #include "core/contract.h"
 #include "gpu/shader_source.h"
@@ -91,8 +92,7 @@ std::vector<std::string> constants(const Plan& plan, const GroupPlan& group, con
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
     std::vector<std::string> out = group.layout().defines(options.targets.has_value());
-    const bool births = options.work == Work::births;
-    const bool perLane = options.lanes == Lanes::molecule;
+    const bool births = options.work == Work::births, perLane = options.lanes == Lanes::molecule;
     if (!options.targets)
         out.push_back(concat("LANES ", births ? birthLanes : workgroupMolecules(group, options)));
     if (perLane) {
@@ -305,11 +305,10 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
     using Form = VertexLoops::Form;
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
     constexpr size_t longest = 48;  // calls of a field or a collider
-    const int ofLane = verticesOfLane(group, options);
-    const auto vertices = size_t(ofLane);
+    const auto vertices = size_t(verticesOfLane(group, options));
     const bool software = options.software;
     const bool isLong = plan.longFields || (!software && !plan.fields.noiseTiles.empty());
-    return {ofLane, Form::writeOut,
+    return {int(vertices), Form::writeOut,
             form((isLong && vertices > (software ? 1 : 8)) ||
                  (!software && vertices * (plan.fieldCount + group.forces.pulls.size()) > longest)),
             form(!software && vertices * plan.colliderCount > longest), form(!software || vertices <= 32)};
@@ -377,6 +376,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
             newbornText(targetsOf(storedByDraws(group, options.work), options));
     constexpr const char* labels[] = {"fused step", "normals", "watch", "contact touched", "births"};  // Work
     out.label = concat(labels[size_t(options.work)], " of ", group.name);
+    if (options.work == Work::frame) out.seconds = secondsToCompile(plan, group, options.lanes);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         expand(source, loops);
     };

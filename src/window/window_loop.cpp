@@ -100,7 +100,7 @@ void WindowLoop::work(void (WindowLoop::*part)()) {
     thread_->begin([this, part] { (this->*part)(); });
     for (auto time = patience; !thread_->waits(time); time = pause) {
         glfwPollEvents();
-        const Busy busy = busy_.look();
+        const Busy busy = busyWith();
         if (!busy.what.empty()) tellWaiting(busy);
     }
     thread_->finish();

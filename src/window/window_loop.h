@@ -83,7 +83,6 @@ class WindowLoop {
     GLFWwindow* window_;
     std::optional<Interface> interface_;
     ContextThread* thread_ = nullptr;  // while the loop goes on
-    BusyClock busy_;
     Picture picture_;
     bool isNew_ = false,
          closes_ = false;  // the picture, since it was presented; the window, after this frame

@@ -50,15 +50,20 @@ TEST_CASE("what takes long is told once: a program by its label, else what goes 
     {
         const shoal::BusyWatch watch([&](const std::string& what) { told.push_back(what); }, 40ms);
         const shoal::Activity outer("placing leaves");
-        program.use();  // for the first time, and then it does not end for long
+        const Texture texture(testContext(), Format::rgba32f, 2, 2, "target");
+        program.use();  // uniforms are set, and nothing is drawn yet
+        other.use();
+        CHECK(draw(program, {&texture}).size() == 4);
+        CHECK(firstUse().label == "test");  // and it does not end for long
         std::this_thread::sleep_for(400ms);
+        CHECK(firstUse().seconds > 0.35);
         program.use();
         std::this_thread::sleep_for(200ms);
         CHECK(firstUse().label.empty());
         const shoal::Activity inner("reading leaf.obj");
         std::this_thread::sleep_for(200ms);
     }
-    CHECK(shoal::activity().empty());
+    CHECK(shoal::activity().first.empty());
     CHECK(told == std::vector<std::string>{"compiling \"test\"", "placing leaves", "reading leaf.obj"});
     other.use();
     CHECK(firstUse().label == "test");

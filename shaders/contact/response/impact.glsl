@@ -59,8 +59,9 @@ vec3 impulseOf(Impact all, vec2 material)
     vec3 n = all.normal;
     vec3 u = all.velocity;
     float along = dot(u, n);
-    float push = -(1.0 + material.x) * min(along, 0.0) / dot(n, gainBetween(all, n));
-    u += gainBetween(all, n * push);
+    vec3 gained = gainBetween(all, n);  // by 1 N s
+    float push = -(1.0 + material.x) * min(along, 0.0) / dot(n, gained);
+    u += push * gained;
     vec3 slip = u - n * dot(u, n);
     float speed = sqrt(dot(slip, slip));
     vec3 across = slip / max(speed, 1e-30);

@@ -88,8 +88,10 @@ void main()
     bool strikes = !(isOther && slot > other) && happens(slot, choice);
     while (strikes) {  // rare (contact/search/find.pass.glsl)
         strike(slot, choice);
-        allChooseAnew(slot);
-        if (isOther) allChooseAnew(other);
+        for (int side = slot;; side = other) {
+            allChooseAnew(side);
+            if (!isOther || side == other) break;
+        }
         strikes = false;
     }
 }
