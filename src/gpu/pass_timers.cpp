@@ -19,6 +19,11 @@ PassTimers::Mode PassTimers::suitedTo(const ContextInfo& info) {
     return info.software ? Mode::finish : Mode::query;
 }
 
+void PassTimers::setMode(Mode mode) {
+    drain();
+    mode_ = mode;
+}
+
 PassTimers::Scope::Scope(PassTimers& timers, const char* name)
     : timers_(timers), group_(*timers.info_, name), name_(name), passesBefore_(FrameRecord::passes()) {
     FrameRecord::enter(name);
@@ -187,18 +192,6 @@ void PassTimers::reset() {
     }
 }
 
-std::vector<double> PassTimers::history(const std::string& name) const {
-    const auto pass =
-        std::find_if(passes_.begin(), passes_.end(), [&](const Pass& p) { return p.name == name; });
-    if (pass == passes_.end()) return {};
-    std::vector<double> out = pass->values;
-    if (pass->written > keptFrames) {
-        const auto oldest = static_cast<std::ptrdiff_t>(pass->written % keptFrames);
-        std::rotate(out.begin(), out.begin() + oldest, out.end());
-    }
-    return out;
-}
-
 std::vector<PassTime> PassTimers::report() const {
     std::vector<PassTime> out;
     for (const Pass& pass : passes_) {
@@ -206,8 +199,13 @@ std::vector<PassTime> PassTimers::report() const {
         time.name = pass.name;
         time.calls = pass.calls;
         time.frames = static_cast<int>(pass.written);
+        time.values = pass.values;
+        if (pass.written > keptFrames)
+            std::rotate(time.values.begin(),
+                        time.values.begin() + static_cast<std::ptrdiff_t>(pass.written % keptFrames),
+                        time.values.end());
         if (!pass.values.empty()) {
-            time.last = pass.values[(pass.written - 1) % keptFrames];
+            time.last = time.values.back();
             std::vector<double> sorted = pass.values;
             std::sort(sorted.begin(), sorted.end());
             time.min = sorted.front();
@@ -217,6 +215,14 @@ std::vector<PassTime> PassTimers::report() const {
         }
         out.push_back(std::move(time));
     }
+    return out;
+}
+
+std::vector<PassTime> stagesOf(const PassTimers& simulation, const PassTimers* drawing) {
+    std::vector<PassTime> out = simulation.report();
+    if (drawing)
+        for (PassTime& stage : drawing->report())
+            out.push_back(std::move(stage));
     return out;
 }
 

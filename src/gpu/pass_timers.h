@@ -25,6 +25,7 @@ struct PassTime {
     double last = 0, min = 0, median = 0;  // seconds a frame, over the frames that are kept
     int calls = 0;                         // in the last frame
     int frames = 0;                        // with a value so far
+    std::vector<double> values = {};       // s, of the frames that are kept, oldest first
 };
 
 class PassTimers {
@@ -40,6 +41,7 @@ class PassTimers {
     PassTimers(Context& context, Mode mode);
     static Mode suitedTo(const ContextInfo& info);  // finish on a CPU rasteriser, else query
     Mode mode() const { return mode_; }
+    void setMode(Mode mode);  // between frames
 
     class Scope {
       public:
@@ -67,8 +69,7 @@ class PassTimers {
     void drain();  // query: waits for all results; for the end of a benchmark, not for frames
     void reset();  // forgets the history, such as after warming up
 
-    std::vector<PassTime> report() const;                        // in the order of first use
-    std::vector<double> history(const std::string& name) const;  // oldest first
+    std::vector<PassTime> report() const;  // in the order of first use
 
   private:
     struct Pass {
@@ -103,6 +104,10 @@ class PassTimers {
     std::vector<Frame> spare_;
     int callsLastFrame_ = 0, windowStart_ = 0;
 };
+
+// The stages of frames, and after them those of their pictures; null: there are none. All that lists stages
+// has them from here: run --timings, bench --report and the window.
+std::vector<PassTime> stagesOf(const PassTimers& simulation, const PassTimers* drawing);
 
 // The device's own time of what some calls ask of it, from two timestamps among its commands; waits for it.
 // For benchmarks: without what the processor takes to issue them, as far as the driver hands them over

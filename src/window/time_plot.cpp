@@ -14,24 +14,6 @@ namespace {
 
 constexpr size_t shownFrames = 180;
 
-struct Series {
-    gpu::PassTime time;
-    std::vector<double> values;  // s, one a frame, the newest last
-};
-
-std::vector<Series> seriesOf(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing) {
-    std::vector<Series> out;
-    for (const gpu::PassTimers* timers : {&simulation, &drawing}) {
-        for (const gpu::PassTime& time : timers->report()) {
-            std::vector<double> values = timers->history(time.name);
-            if (values.size() > shownFrames)
-                values.erase(values.begin(), values.end() - std::ptrdiff_t(shownFrames));
-            out.push_back({time, std::move(values)});
-        }
-    }
-    return out;
-}
-
 ImU32 colorOf(size_t pass) {
     constexpr double golden = 0.61803398875;  // turns of the hue: neighbours differ, and none comes again
     float r = 0, g = 0, b = 0;
@@ -39,20 +21,20 @@ ImU32 colorOf(size_t pass) {
     return ImGui::GetColorU32(ImVec4(r, g, b, 1));
 }
 
-double valueAt(const Series& series, size_t fromEnd) {
-    return fromEnd < series.values.size() ? series.values[series.values.size() - 1 - fromEnd] : 0;
+double valueAt(const gpu::PassTime& stage, size_t fromEnd) {
+    return fromEnd < stage.values.size() ? stage.values[stage.values.size() - 1 - fromEnd] : 0;
 }
 
-void drawPlot(const std::vector<Series>& all) {
+void drawPlot(const std::vector<gpu::PassTime>& all) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = points(64);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height),
                        ImGui::GetColorU32(ImGuiCol_FrameBg));
     std::vector<double> totals(shownFrames, 0);
-    for (const Series& series : all)
+    for (const gpu::PassTime& stage : all)
         for (size_t i = 0; i < shownFrames; ++i)
-            totals[i] += valueAt(series, i);
+            totals[i] += valueAt(stage, i);
     // a frame that stalled does not flatten all others
     std::vector<double> sorted = totals;
     sorted.erase(std::remove(sorted.begin(), sorted.end(), 0.0), sorted.end());  // there were no such frames
@@ -81,7 +63,7 @@ void drawPlot(const std::vector<Series>& all) {
 }  // namespace
 
 void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing) {
-    const std::vector<Series> all = seriesOf(simulation, drawing);
+    const std::vector<gpu::PassTime> all = gpu::stagesOf(simulation, &drawing);
     drawPlot(all);
     if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("stage");
@@ -89,7 +71,7 @@ void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing
     ImGui::TableSetupColumn("ms a frame");
     ImGui::TableHeadersRow();
     for (size_t s = 0; s < all.size(); ++s) {
-        const gpu::PassTime& pass = all[s].time;
+        const gpu::PassTime& pass = all[s];
         ImGui::TableNextColumn();
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const float side = ImGui::GetFontSize() * 0.6f, down = ImGui::GetFontSize() * 0.25f;

@@ -28,6 +28,13 @@ std::string copiedData(const Scratch& scratch) {
     return folder.string();
 }
 
+std::vector<std::string> stagesOf(const JsonValue& report) {
+    std::vector<std::string> out;
+    for (const JsonValue& stage : member(report, "stages").items)
+        out.push_back(member(stage, "stage").text);
+    return out;
+}
+
 const JsonValue* rowNamed(const JsonValue& rows, const std::string& kind, const std::string& name) {
     for (const JsonValue& row : rows.items)
         if (member(row, "kind").text == kind && member(row, "name").text == name) return &row;
@@ -69,6 +76,12 @@ TEST_CASE("bench --report writes one file: machine, checks, speeds and drawn sce
         CHECK(member(member(drawn, part), "minSeconds").number > 0);
         member(member(drawn, part), "deviceMinSeconds");
     }
+    const Outcome timed = runShoal({"run", "hello/hello", "--headless", "--frames", "2", "--size", "64x36",
+                                    "--timings", "--json", "--capture", scratch.path("pictures")});
+    INFO(timed.err);
+    REQUIRE(timed.code == 0);
+    CHECK(stagesOf(drawn).size() > 5);
+    CHECK(stagesOf(drawn) == stagesOf(timed.json()));
     CHECK(report.find("speeds") == nullptr);  // none is called so
 }
 

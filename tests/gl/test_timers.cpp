@@ -1,12 +1,17 @@
 #include <chrono>
+#include <sstream>
 #include <string>
 #include <thread>
 
+#include <imgui.h>
+
 #include "gl/gl_test.h"
+#include "gl/render_scene.h"
 #include "gpu/frame_record.h"
 #include "gpu/gl.h"
 #include "gpu/pass_timers.h"
 #include "support/catch.h"
+#include "window/panel.h"
 
 using namespace shoal::gpu;
 using Kind = Traffic::Kind;
@@ -49,10 +54,10 @@ TEST_CASE("finish mode adds up the calls of a frame", "[timers]") {
     CHECK(report[0].median >= report[0].min);
     CHECK(report[1].calls == 1);
     CHECK(report[0].last + report[1].last <= whole);  // nothing is counted twice
-    CHECK(timers.history("slow").size() == 3);
-    CHECK(timers.history("slow").back() == report[0].last);
+    CHECK(report[0].values.size() == 3);
+    CHECK(report[0].values.back() == report[0].last);
     timers.reset();
-    CHECK(timers.history("slow").empty());
+    CHECK(timers.report()[0].values.empty());
 }
 
 TEST_CASE("queries give every pass a value within the control bytes", "[timers]") {
@@ -113,7 +118,47 @@ TEST_CASE("timers that are off, and calls outside a frame, cost nothing", "[time
     testContext().checkErrors("timers that are off");
 }
 
-TEST_CASE("history keeps the newest frames, oldest first", "[timers]") {
+TEST_CASE("the window's panel lists the stages that run --timings and bench --report have", "[timers]") {
+    using namespace shoal;
+    Scene scene = test::sceneOfSquares({{0, 0, 0}});
+    scene.colliders.emplace_back();  // a ground, for shadows
+    Simulation simulation(testContext(), compile(scene), {.timing = Mode::finish, .path = testPath()});
+    Renderer renderer(testContext(), scene, simulation.plan(),
+                      {.width = 64, .height = 36, .timing = Mode::finish});
+    simulation.frame();
+    renderer.draw(simulation.state(), View::fromCamera(scene.camera));
+    const std::vector<PassTime> stages = stagesOf(simulation.timers(), &renderer.timers());
+    CHECK(stages.size() > 5);
+
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = ImVec2(600, 2000);
+    io.Fonts->Build();
+    std::string shown;
+    io.ClipboardUserData = &shown;
+    io.SetClipboardTextFn = [](void* text, const char* words) { *static_cast<std::string*>(text) = words; };
+    ImGui::NewFrame();
+    ImGui::SetNextWindowSize(io.DisplaySize);
+    ImGui::Begin("panel");
+    ImGui::LogToClipboard();
+    window::drawTimes(simulation.timers(), renderer.timers());
+    ImGui::LogFinish();
+    ImGui::End();
+    ImGui::Render();
+    ImGui::DestroyContext();
+    INFO(shown);
+    std::istringstream lines(shown);
+    std::string line;
+    std::getline(lines, line);  // the heads
+    for (const PassTime& stage : stages) {
+        std::getline(lines, line);
+        CHECK_THAT(line, Catch::Contains(concat("| ", stage.name, " |")));
+    }
+    CHECK_FALSE(std::getline(lines, line));
+}
+
+TEST_CASE("values are those of the newest frames, oldest first", "[timers]") {
     PassTimers timers(testContext(), Mode::finish);
     for (int frame = 0; frame < PassTimers::keptFrames + 5; ++frame) {
         timers.beginFrame();
@@ -123,8 +168,8 @@ TEST_CASE("history keeps the newest frames, oldest first", "[timers]") {
         }
         timers.endFrame();
     }
-    const auto history = timers.history("pass");
-    CHECK(history.size() == static_cast<size_t>(PassTimers::keptFrames));
-    CHECK(history.back() == timers.report().front().last);
-    CHECK(timers.report().front().frames == PassTimers::keptFrames + 5);
+    const PassTime report = timers.report().front();
+    CHECK(report.values.size() == static_cast<size_t>(PassTimers::keptFrames));
+    CHECK(report.values.back() == report.last);
+    CHECK(report.frames == PassTimers::keptFrames + 5);
 }

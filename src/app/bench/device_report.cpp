@@ -38,6 +38,7 @@ struct DrawnTimes {
     std::string failed;  // the words of an error; empty: none
     size_t molecules = 0;
     measure::Spread simulate = {}, draw = {}, deviceSimulate = {}, deviceDraw = {};
+    std::vector<gpu::PassTime> stages = {};
 };
 
 struct DeviceReport {
@@ -92,22 +93,41 @@ class DrawnScene {
                           RenderOptions{.width = out.width, .height = out.height});
         frame();
         simulate_.clear(), draw_.clear(), ownSimulate_.clear(), ownDraw_.clear();
-        const auto start = measure::Clock::now();
         const double seconds = quick ? 0.2 : patience;
-        while (draw_.size() < most && (draw_.empty() || measure::secondsSince(start) < seconds))
-            frame();
-        simulation_.check();
-        device_.context->checkErrors("drawn");
+        repeat(seconds);
         for (const GroupPlan& group : simulation_.plan().groups)
             out.molecules += size_t(group.count);
         out.simulate = measure::spreadOf(simulate_);
         out.draw = measure::spreadOf(draw_);
         out.deviceSimulate = measure::spreadOf(ownSimulate_);
         out.deviceDraw = measure::spreadOf(ownDraw_);
+        out.stages = stages(seconds);
+        simulation_.check();
+        device_.context->checkErrors("drawn");
     }
 
   private:
     static constexpr size_t most = 60;
+
+    void repeat(double seconds) {
+        const auto start = measure::Clock::now();
+        for (size_t i = 0; i < most && (i == 0 || measure::secondsSince(start) < seconds); ++i)
+            frame();
+    }
+
+    // Frames of their own, because timers wait for each stage on a CPU rasteriser.
+    std::vector<gpu::PassTime> stages(double seconds) {
+        gpu::PassTimers &simulating = simulation_.timers(), &drawing = renderer_->timers();
+        const auto setMode = [&](gpu::PassTimers::Mode mode) {
+            simulating.setMode(mode);
+            drawing.setMode(mode);
+        };
+        simulating.reset();  // of what another size has measured
+        setMode(gpu::PassTimers::suitedTo(device_.context->info()));
+        repeat(seconds);
+        setMode(gpu::PassTimers::Mode::off);
+        return gpu::stagesOf(simulating, &drawing);
+    }
 
     template <typename Work>
     void take(std::vector<double>& wall, std::vector<double>& own, const Work& work) {
@@ -192,7 +212,8 @@ JsonValue asJson(const DrawnTimes& times) {
     if (!times.failed.empty()) return append(out, key("failed", times.failed));
     return append(out, key("molecules", times.molecules), key("frames", times.simulate.samples),
                   key("simulate", asJson(times.simulate, times.deviceSimulate)),
-                  key("draw", asJson(times.draw, times.deviceDraw)));
+                  key("draw", asJson(times.draw, times.deviceDraw)),
+                  key("stages", arrayOf(times.stages, bench::asJson)));
 }
 
 JsonValue asJson(const DeviceReport& report, const MeasuredOn& machine, bool quick) {

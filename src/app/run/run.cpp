@@ -220,11 +220,7 @@ class HeadlessRun {
         std::cerr << "\n";
     }
     std::vector<gpu::PassTime> passTimes() {
-        std::vector<gpu::PassTime> out = simulation_.timers().report();
-        if (!renderer_) return out;
-        for (const gpu::PassTime& pass : renderer_->timers().report())
-            out.push_back(pass);
-        return out;
+        return gpu::stagesOf(simulation_.timers(), renderer_ ? &renderer_->timers() : nullptr);
     }
     template <typename Work>
     void outside(const Work& work) {
