@@ -144,7 +144,7 @@ Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanation
                           FrameRate& rate, double frameSeconds, const gpu::Traffic& lastFrame) {
     Simulation& simulation = running.simulation();
     const float edge = points(12), width = points(304);
-    ImGui::SetNextWindowPos(ImVec2(edge, edge), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowPos(ImVec2(edge, edge));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
                                         ImVec2(width, ImGui::GetIO().DisplaySize.y - 2 * edge));
     ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);

@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "cli/shoal_command.h"
+#include "cli/window_user.h"
 #include "core/image.h"
 #include "support/catch.h"
 #include "support/scratch.h"
@@ -34,6 +35,28 @@ TEST_CASE("a window shows the scene and the panel", "[.window]") {
     CHECK(brightness(image, 500, 20, 250, 60) > 110);  // the sky beside it
     CHECK(brightness(image, 20, 14, 90, 10) > 25);     // its title is written on it
     CHECK(brightness(image, 20, 14, 90, 10) < 160);
+}
+
+TEST_CASE("a window of any size draws its panels, which are in their places once it is large again",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("window.png");
+    const Outcome outcome = inWindow({"run", squaresScene(), "--context", "window", "--size", "1x1",
+                                      "--frames", "100000", "--screenshot", file},
+                                     "for size in '5000 40' '1 300' '300 1' '90 60' '1 1' '800 600'; do\n"
+                                     "  xdotool windowsize $w $size; settle; settle\n"
+                                     "done\n"
+                                     "close\n");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.messages().empty());
+    const Image image = readPng(file);
+    CHECK(image.width == 800);
+    CHECK(image.height == 600);
+    CHECK(brightness(image, 20, 14, 90, 10) > 25);  // the title of the panel
+    CHECK(brightness(image, 20, 14, 90, 10) < 160);
+    CHECK(brightness(image, 2, 20, 8, 400) > 110);  // the sky beside it
 }
 
 TEST_CASE("a window that is told to end closes, and ends by the signal", "[.window]") {
