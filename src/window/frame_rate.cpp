@@ -34,9 +34,11 @@ void FrameRate::took(double seconds, double drawing) {
     if (++frames_ < fewest) return;
     const double frame = measure::spreadOf(seconds_).median, picture = measure::spreadOf(drawing_).median;
     rest_ = std::max(0.0, frame - picture);
-    // Where all else is slow, a third of the frame is the picture's: less would not be seen in the rate.
-    const double most = std::max(budget - rest_, rest_ / 2);
     const double full = picture / pictureLevels[level_].cost;  // about, s of a full picture
+    // Where the least picture is too slow as well, because all else is slow, a third of the frame is the
+    // picture's: less would not be seen in the rate.
+    double most = budget - rest_;
+    if (full * pictureLevels.back().cost > most) most = std::max(most, rest_ / 2);
     const bool slow = frame > 1.05 * budget;
     if (slow && picture > 1.05 * most && level_ + 1 < pictureLevels.size()) {
         tooSlow_[level_] = patience;

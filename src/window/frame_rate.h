@@ -33,6 +33,9 @@ class FrameRate {
 
     bool keeps = true;  // the rate; else all pictures are full
     const PictureLevel& level() const { return pictureLevels[keeps ? level_ : 0]; }
+    // Whether the picture's own time is to be waited for, after a frame of so many seconds: they may be those
+    // of the monitor, for which frames wait.
+    bool measures(double seconds) const { return seconds * wanted > 1 || level().cost < 1; }
     // Takes note of how long a frame with a picture of level() took, all in all and the picture alone, at the
     // most.
     void took(double seconds, double drawing);

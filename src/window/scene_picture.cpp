@@ -30,14 +30,13 @@ void ScenePicture::draw(OpenScene& open, const Frame& frame, bool force) {
     if (rests_ && full_) return;
     if (!rests_ && !force) {
         if (counted) rate.took(frame.seconds, drawing_);
-        // Where frames are slow it is waited for, so that its time is known.
-        const bool slow = frame.seconds * FrameRate::wanted > 1;
-        if (slow) glFinish();
+        const bool measures = rate.measures(frame.seconds);
+        if (measures) glFinish();
         const auto start = std::chrono::steady_clock::now();
         drawAt(open, frame, rate.level());
-        if (slow) glFinish();
-        drawing_ = slow ? std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()
-                        : frame.seconds;
+        if (measures) glFinish();
+        drawing_ = measures ? std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()
+                            : frame.seconds;
         counts_ = true;
         return;
     }

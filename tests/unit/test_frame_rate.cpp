@@ -1,4 +1,6 @@
 // The rate of frames that the windows keep: how pictures become cheaper, and full again.
+#include <algorithm>
+
 #include "support/catch.h"
 #include "window/frame_rate.h"
 
@@ -47,6 +49,35 @@ TEST_CASE("a slow picture keeps the rate by size, samples, shadows and occlusion
         CHECK(less.quality.samples <= more.quality.samples);
         CHECK(less.quality.shadows <= more.quality.shadows);
         CHECK(less.quality.occlusion <= more.quality.occlusion);
+    }
+}
+
+TEST_CASE("a rate that the least picture keeps is kept, however much of the frame is not the picture's",
+          "[window]") {
+    for (const double other : {0.02, 0.03, 0.04, 0.044}) {
+        for (const double full : {0.01, 0.02, 0.03, 0.05}) {
+            CAPTURE(other, full);
+            FrameRate rate;
+            CHECK(run(rate, full, other, 300) <= 1.05 / FrameRate::wanted);
+            CHECK_FALSE(rate.missed());
+        }
+    }
+}
+
+TEST_CASE("a wait for the monitor is not taken for the picture's time", "[window]") {
+    for (const double hertz : {30, 60, 144}) {
+        CAPTURE(hertz);
+        FrameRate rate;
+        run(rate, 0.3, 0.01, 100);
+        double seconds = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const double drawing = 0.004 * rate.level().cost;
+            const double told = rate.measures(seconds) ? drawing : seconds;
+            seconds = std::max(1 / hertz, 0.01 + drawing);
+            rate.took(seconds, told);
+        }
+        CHECK(isFull(rate));
+        CHECK_FALSE(rate.missed());
     }
 }
 
