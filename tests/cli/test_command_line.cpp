@@ -50,7 +50,7 @@ TEST_CASE("values out of range are refused", "[cli]") {
         {"--size", "160", "--size: expected WIDTHxHEIGHT"},
         {"--size", "0x90", "--size: expected WIDTHxHEIGHT"},
         {"--size", "160x90x3", "--size: expected WIDTHxHEIGHT"},
-        {"--size", "160x99999", "--size: expected WIDTHxHEIGHT"},
+        {"--size", "160x99999", "each from 1 to 16384"},
         {"--dt", "0", "--dt: expected a time from 1e-5 to 1 s, found \"0\""},
         {"--dt", "-0.1", "--dt: expected a time from 1e-5 to 1 s"},
         {"--dt", "nan", "--dt: expected a time from 1e-5 to 1 s, found \"nan\""},

@@ -254,12 +254,14 @@ void checkTogether(const Options& options) {
 
 void readSize(const std::string& text, Options& options) {
     const size_t cross = text.find('x');
+    constexpr int most = 16384;
     const auto side = [](const std::string& digits, int& value) {
-        return isAll(digits, value) && value >= 1 && value <= 16384;
+        return isAll(digits, value) && value >= 1 && value <= most;
     };
     if (cross == std::string::npos || !side(text.substr(0, cross), options.width) ||
         !side(text.substr(cross + 1), options.height))
-        throw Error(concat("expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
+        throw Error(concat("expected WIDTHxHEIGHT in pixels, each from 1 to ", most,
+                           ", such as 1280x720, found \"", text, "\""));
 }
 
 }  // namespace
