@@ -5,18 +5,20 @@
 
 namespace shoal {
 
+using Clock = std::chrono::steady_clock;
+
 namespace {
 
 std::mutex guard;
-std::string current;
-std::chrono::steady_clock::time_point began;
+Busy current;
+Clock::time_point began;
 
 }  // namespace
 
 Activity::Activity(std::string what) {
     const std::lock_guard lock(guard);
-    outer_ = std::exchange(current, std::move(what));
-    outerBegan_ = std::exchange(began, std::chrono::steady_clock::now());
+    outer_ = std::exchange(current, Busy{std::move(what)});
+    outerBegan_ = std::exchange(began, Clock::now());
 }
 
 Activity::~Activity() {
@@ -25,9 +27,16 @@ Activity::~Activity() {
     began = outerBegan_;
 }
 
-std::pair<std::string, double> activity() {
+void Activity::reach(double share) {
     const std::lock_guard lock(guard);
-    return {current, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()};
+    current.share = share;
+}
+
+Busy activity() {
+    const std::lock_guard lock(guard);
+    Busy out = current;
+    out.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    return out;
 }
 
 }  // namespace shoal

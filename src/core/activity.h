@@ -1,11 +1,18 @@
-// An activity is what the program is busy with: BusyWatch (run/progress.h) tells those that take long.
+// An activity is what the program is busy with: BusyWatch (run/progress.h) and the windows tell those that
+// take long.
 #pragma once
 
 #include <chrono>
 #include <string>
-#include <utility>
 
 namespace shoal {
+
+// What the program waits for.
+struct Busy {
+    std::string what;    // empty: nothing
+    double seconds = 0;  // so far
+    double share = 0;    // of it that is done, about; 0: not known
+};
 
 // The program does what the text says ("reading leaf.obj") while this lives.
 class Activity {
@@ -15,13 +22,14 @@ class Activity {
     Activity(const Activity&) = delete;
     Activity& operator=(const Activity&) = delete;
 
+    static void reach(double share);  // of the innermost activity
+
   private:
-    std::string outer_;
+    Busy outer_;
     std::chrono::steady_clock::time_point outerBegan_;
 };
 
-// Returns what the innermost Activity says and how long it has gone on, in s, for any thread to ask; empty:
-// there is none.
-std::pair<std::string, double> activity();
+// Returns the innermost activity, for any thread to ask.
+Busy activity();
 
 }  // namespace shoal

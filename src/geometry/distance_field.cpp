@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/activity.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/closest_point.h"
@@ -170,7 +171,10 @@ class Baker {
                 }
             }
             ++done;
-            if (progress && std::this_thread::get_id() == main) progress(double(done) / field_.grid.size.z);
+            if (std::this_thread::get_id() != main) return;
+            const double share = double(done) / field_.grid.size.z;
+            Activity::reach(share);
+            if (progress) progress(share);
         });
     }
 
@@ -261,6 +265,7 @@ int finestResolution(const Mesh& mesh, const FieldRequest& request, bool closed)
 
 DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request, const FieldProgress& progress,
                                 int threads) {
+    const Activity baking("baking a distance field");
     const auto start = std::chrono::steady_clock::now();
     const SurfaceReport surface = examineSurface(mesh);
     if (!(surface.area > 0)) throw Error("has no surface: none of its triangles has an area");

@@ -8,7 +8,6 @@
 #include <iostream>
 
 #include "core/activity.h"
-#include "core/cache_folder.h"
 #include "core/printable.h"
 #include "gpu/program.h"
 #include "run/signals.h"
@@ -81,35 +80,14 @@ void Progress::print() {
     std::fflush(stderr);
 }
 
-FieldBaking FieldWatch::baking() {
-    return {cacheFolder(), [this](double share) { show(share); }};
-}
-
-void FieldWatch::show(double share) {
-    const int percent = int(share * 100);
-    if (percent < last_) bar_.reset();  // another field, or the same finer
-    last_ = percent;
-    const auto waited = std::chrono::steady_clock::now() - start_;
-    if (!bar_ && waited < std::chrono::seconds(1)) return;
-    if (!bar_) bar_.emplace("baking a distance field", 100);
-    bar_->reach(percent);
-}
-
-double Busy::share() const {
-    constexpr double last = 0.99;  // until it is done
-    return expected > 0 ? std::min(seconds / expected, last) : 0;
-}
-
-std::string Busy::text() const {
-    return expected > 0 ? concat(what, ", about ", roughly(expected)) : what;
-}
-
 Busy busyWith() {
     const gpu::FirstUse compiled = gpu::firstUse();
-    if (!compiled.label.empty())
-        return {concat("compiling \"", compiled.label, "\""), compiled.seconds, compiled.expected};
-    const auto [what, seconds] = activity();
-    return {what, seconds};
+    if (compiled.label.empty()) return activity();
+    const std::string what = concat("compiling \"", compiled.label, "\"");
+    if (compiled.expected <= 0) return {what, compiled.seconds, 0};
+    constexpr double last = 0.99;  // until it is done
+    return {concat(what, ", about ", roughly(compiled.expected)), compiled.seconds,
+            std::min(compiled.seconds / compiled.expected, last)};
 }
 
 BusyWatch::BusyWatch(std::function<void(const std::string&)> tell, std::chrono::milliseconds patience)
@@ -138,15 +116,17 @@ void BusyWatch::watch() {
 
 void BusyWatch::show(const Busy& busy) {
     const bool waits = !busy.what.empty() && busy.seconds >= std::chrono::duration<double>(patience_).count();
-    if (waits && told_.insert(busy.what).second) {
-        bar_.reset();
-        if (busy.expected > 0 && ::isatty(2) != 0)
-            bar_.emplace(busy.what, 100);
-        else
-            tell_(busy.text());
+    const int percent = int(100 * busy.share);
+    if (!waits || percent < percent_) bar_.reset();  // or the same begins anew, finer
+    percent_ = percent;
+    if (!waits) return;
+    const bool isNew = told_.insert(busy.what).second;
+    if (percent > 0 && ::isatty(2) != 0) {
+        if (!bar_) bar_.emplace(busy.what, 100);
+        bar_->reach(percent);
+    } else if (isNew) {
+        tell_(busy.what);
     }
-    if (!waits) bar_.reset();
-    if (bar_) bar_->reach(int(100 * busy.share()));
 }
 
 std::string roughly(double seconds) {

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/activity.h"
 #include "core/error.h"
-#include "geometry/distance_field.h"
 
 namespace shoal {
 
@@ -49,29 +49,8 @@ class Progress {
     TimeLeft left_;
 };
 
-// Shows the baking of distance fields when it takes long.
-class FieldWatch {
-  public:
-    // For readScene, while this lives: from the cache's own folder.
-    FieldBaking baking();
-
-  private:
-    void show(double share);
-
-    std::optional<Progress> bar_;
-    int last_ = 0;  // hundredths
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// What the program waits for: a driver that compiles, or else an Activity (core/activity.h).
-struct Busy {
-    std::string what;     // empty: nothing
-    double seconds = 0;   // that it took so far
-    double expected = 0;  // s, that it takes in all, about; 0: not known
-
-    double share() const;      // of it that is done, about; below 1, and 0 where it is not known
-    std::string text() const;  // "compiling "leaf", about 7 s"
-};
+// Returns what the program waits for: a driver that compiles, with about how long that takes in all where it
+// is known, or else an Activity.
 Busy busyWith();
 
 // Tells, each once, what has been going on for so long while this lives, with a bar on a terminal where it is
@@ -92,7 +71,8 @@ class BusyWatch {
     std::function<void(const std::string&)> tell_;
     std::chrono::milliseconds patience_;
     std::set<std::string> told_;
-    std::optional<Progress> bar_;  // of the last that was told
+    std::optional<Progress> bar_;  // of what goes on
+    int percent_ = 0;              // of it
     std::mutex guard_;
     std::condition_variable end_;
     bool ends_ = false;

@@ -33,8 +33,7 @@ RunRequest RunRequest::forAnother() const {
 }
 
 Scene readScene(const std::string& file, const RunRequest& request, void (*check)(const Scene&)) {
-    FieldWatch watch;
-    return readScene(file, {watch.baking(), request.lenient, [&](Scene& scene) {
+    return readScene(file, {.lenient = request.lenient, .beforeBaking = [&](Scene& scene) {
                                 apply(request, scene);
                                 check(scene);
                             }});

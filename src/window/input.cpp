@@ -76,6 +76,10 @@ void Input::listen() {
     glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);
 }
 
+void Input::wait() {
+    if (frames_.is_open()) frames_.put('w').flush();
+}
+
 void Input::next(bool chooses) {
     if (frames_.is_open() && waiting_.empty()) frames_.put('.').flush();
     pressed_.clear();

@@ -105,7 +105,7 @@ void Interface::begin(bool waits) {
     const Density current = density();
     if (!(current == made_)) makeFont(current);
     const bool chooses = ImGui::GetIO().NavVisible || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    if (!waits) input_->next(chooses);
+    waits ? input_->wait() : input_->next(chooses);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     input_->settle();

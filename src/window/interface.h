@@ -35,6 +35,7 @@ class Input {
     // What this frame holds; once a frame. `chooses`: the user moves among rows or in what has popped up,
     // where Space, Home and Escape are not the window's.
     void next(bool chooses);
+    void wait();    // instead: a frame that takes nothing, because the program is busy
     void settle();  // after ImGui's backend has asked the window itself, which knows only how things are now
 
     // ---- Keys, by GLFW's numbers
@@ -72,7 +73,7 @@ class Input {
     bool heard_ = true, acts_ = false;
     std::set<int> buttons_;  // that are held
     ImVec2 place_{0, 0};     // of the pointer
-    std::ofstream frames_;   // $SHOAL_FRAMES: a byte for each frame that began with nothing waiting
+    std::ofstream frames_;   // $SHOAL_FRAMES: "." for each frame with no event left, "w" for each that waits
 };
 
 class Interface {

@@ -119,8 +119,7 @@ void RunningScene::switchPath(Path path) {
 }
 
 Scene RunningScene::read(const std::string& text) const {
-    FieldWatch baking;
-    return parseScene(text, document_.file(), {baking.baking(), request_.lenient});
+    return parseScene(text, document_.file(), {.lenient = request_.lenient});
 }
 
 // ---- Edits

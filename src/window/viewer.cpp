@@ -127,6 +127,9 @@ class Viewer : public WindowLoop {
         if (open.picture.missesRate()) captures_.say(open.picture.rate.whyMissed());
     }
 
+    double moves() override {
+        return open_ && !open_->controls.paused ? open_->running.scene().frameRate : 0;
+    }
     bool rests() override { return !open_ || open_->picture.rests(); }
 
     void takePicture() {

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -21,7 +22,9 @@ WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
       window_(context.openWindow(options_.width, options_.height)) {
     context_.leave();
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(1);
+    // A late frame does not wait for the screen, where the driver can do that.
+    const bool adapts = glfwExtensionSupported("GLX_EXT_swap_control_tear") == GLFW_TRUE;
+    glfwSwapInterval(adapts ? -1 : 1);
     glfwGetFramebufferSize(window_, &width_, &height_);
     interface_.emplace(window_, options_.scale);
     glGenFramebuffers(1, &source_);
@@ -44,11 +47,7 @@ void WindowLoop::go() {
     glfwMakeContextCurrent(window_);
     auto last = std::chrono::steady_clock::now();
     while (!ends()) {
-        constexpr double pause = 0.05;  // s
-        if (rests() && !interface_->input().waits())
-            glfwWaitEventsTimeout(pause);
-        else
-            glfwPollEvents();
+        awaitFrame();
         const auto time = std::chrono::steady_clock::now();
         lastSeconds_ = std::chrono::duration<double>(time - last).count();
         last = time;
@@ -56,6 +55,19 @@ void WindowLoop::go() {
         if (shown_ > 1) frameSeconds_ += (lastSeconds_ - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
         if (!showFrame()) break;
     }
+}
+
+void WindowLoop::awaitFrame() {
+    constexpr double pause = 0.05, early = 0.002;  // s
+    if (rests() && !interface_->input().waits())
+        glfwWaitEventsTimeout(pause);
+    else
+        glfwPollEvents();
+    const double rate = moves();
+    if (rate <= 0) return;
+    next_ = std::max(next_ + 1 / rate, wallTime());  // what is late is not caught up
+    for (double left; (left = next_ - wallTime()) > early && !glfwWindowShouldClose(window_);)
+        glfwWaitEventsTimeout(left);
 }
 
 bool WindowLoop::ends() {
@@ -112,7 +124,7 @@ void WindowLoop::tellWaiting(const Busy& busy) {
     if (width < 1 || height < 1) return;
     presentPicture();
     interface_->begin(true);
-    drawWaiting(busy.text(), busy.share());
+    drawWaiting(busy.what + (glfwWindowShouldClose(window_) ? "; then it closes" : ""), busy.share);
     interface_->end();
     glfwSwapBuffers(window_);
 }

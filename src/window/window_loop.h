@@ -39,6 +39,8 @@ class WindowLoop {
     virtual void obey() = 0;           // does what was asked for, after the frame is on the screen
     // Whether nothing moves: then frames come when the user does something, and now and then.
     virtual bool rests() { return false; }
+    // Frames a second of what moves: more are not shown, however fast the screen is. 0: nothing moves.
+    virtual double moves() { return 0; }
 
     // Whether the window may close, which the user asks for. False: it stays, and something is to be said
     // first.
@@ -65,6 +67,7 @@ class WindowLoop {
 
   private:
     bool ends();
+    void awaitFrame();
     bool showFrame();
     void work(void (WindowLoop::*part)());
     void tellWaiting(const Busy& busy);
@@ -91,6 +94,7 @@ class WindowLoop {
     int width_ = 0, height_ = 0, shown_ = 0;
     bool saves_ = false;
     double lastSeconds_ = 0, frameSeconds_ = 0;
+    double next_ = 0;  // s, of wallTime(): when the next frame is due
 };
 
 }  // namespace shoal::window

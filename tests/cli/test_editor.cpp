@@ -66,6 +66,17 @@ TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor"
     CHECK(session.text() == replaced(square, "[1, 1, 0]", number));
 }
 
+TEST_CASE("a molecule whose texture is missing is edited all the same", "[.window]") {
+    const Scratch scratch;
+    const std::string file = scratch.write(
+        "bare.json",
+        replaced(square, "\"vertices\"", "\"material\": {\"texture\": \"none.png\"}, \"vertices\""));
+    const Outcome out = runShoal({"edit", file, "--size", "320x240", "--frames", "3"},
+                                 {.environment = {{"XDG_STATE_HOME", scratch.path("state")}}});
+    CHECK(out.code == 0);
+    CHECK_THAT(out.err, Catch::Contains("none.png"));
+}
+
 TEST_CASE("what is done in the editor within one frame is taken in its order", "[.window]") {
     if (!hasXdotool()) return;
     Session session("slow");

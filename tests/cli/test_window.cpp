@@ -1,5 +1,6 @@
 // The window, seen: under a display (tests/CMakeLists.txt starts one) a screenshot shows scene and panel.
 // Hidden from plain runs of shoal-cli, which have no display.
+#include <chrono>
 #include <csignal>
 
 #include "cli/shoal_command.h"
@@ -108,6 +109,36 @@ TEST_CASE("a run that blows up leaves the window open and says so", "[.window]")
     CHECK_THAT(outcome.err, Catch::Contains("shoal: warning: ") && Catch::Contains("stopped at frame 1"));
     CHECK(outcome.messages().size() == 1);
     CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"storm.scene.json", "storm.watchdog.shoal"});
+}
+
+TEST_CASE("a window goes on while a driver compiles for long", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string scene = scratch.write("slow.scene.json", R"({
+  "format": "shoal-scene-1",
+  "solver": {"method": "bdf2-corotated"},
+  "groups": [{"molecule": "fish", "count": 3, "held": false,
+    "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]
+})");
+    const Outcome outcome = inWindow({"run", scene, "--context", "window", "--size", "320x240"},
+                                     "grep -q w \"$dir/frames\"\nclose\n",
+                                     {.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}}});
+    CHECK(outcome.code == 0);
+}
+
+TEST_CASE("a scene is not shown faster than it goes", "[.window]") {
+    const Scratch scratch;
+    const std::string scene = scratch.write("points.scene.json", R"({
+  "format": "shoal-scene-1", "frameRate": 20,
+  "groups": [{"molecule": "point", "count": 1,
+    "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]
+})");
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome =
+        runShoal({"run", scene, "--context", "window", "--size", "64x64", "--frames", "41"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(std::chrono::steady_clock::now() - start > std::chrono::seconds(2));
 }
 
 TEST_CASE("a scene that does not load opens no window", "[.window]") {

@@ -9,9 +9,10 @@
 
 namespace shoal::test {
 
-// $0 is a folder of the script's own, the rest is the program. The window adds a byte to $SHOAL_FRAMES
-// whenever a frame begins with nothing left to take; what is drawn by panels that are new settles within the
-// next two. Letters are the built-in ones, so that places do not depend on the machine's fonts.
+// $0 is a folder of the script's own, the rest is the program. The window adds a "." to $SHOAL_FRAMES
+// whenever a frame begins with nothing left to take, and a "w" for a frame while the program is busy; what is
+// drawn by panels that are new settles within the next two. Letters are the built-in ones, so that places do
+// not depend on the machine's fonts.
 static constexpr const char* prelude = R"(
 set -e
 dir=$0
@@ -25,7 +26,7 @@ export SHOAL_FRAMES="$dir/frames" FONTCONFIG_FILE="$dir/none"
 trap 'gone || kill -9 $(cat "$dir/pid")' EXIT
 
 gone() { [ -s "$dir/code" ]; }
-frames() { stat -c %s "$dir/frames"; }
+frames() { tr -cd . < "$dir/frames" | wc -c; }
 await() {
   end=$(($(date +%s) + ${limit:-60}))
   until eval "$1"; do

@@ -63,12 +63,33 @@ TEST_CASE("what takes long is told once: a program by its label, else what goes 
         const shoal::Activity inner("reading leaf.obj");
         std::this_thread::sleep_for(200ms);
     }
-    CHECK(shoal::activity().first.empty());
+    CHECK(shoal::activity().what.empty());
     CHECK(told == std::vector<std::string>{"compiling \"test\"", "placing leaves", "reading leaf.obj"});
     other.use();
     CHECK(firstUse().label == "test");
     endFirstUse();
     CHECK(firstUse().label.empty());
+}
+
+TEST_CASE("what takes a known time to compile is told with it, and how far it is", "[program]") {
+    using namespace std::chrono_literals;
+    if (!testContext().info().software) return;
+    ProgramOptions options = withFragment("out vec4 color;\nvoid main() { color = vec4(3.0); }\n");
+    options.seconds = 2;
+    const Program program(testContext(), options);
+    program.use();
+    std::this_thread::sleep_for(500ms);
+    const shoal::Busy busy = shoal::busyWith();
+    CHECK(busy.what == "compiling \"test\", about 2 s");
+    CHECK(busy.share >= 0.25);
+    CHECK(busy.share <= 0.99);
+    std::this_thread::sleep_for(2s);
+    CHECK(shoal::busyWith().share == 0.99);
+    endFirstUse();
+    const shoal::Activity activity("baking");
+    shoal::Activity::reach(0.5);
+    CHECK(shoal::busyWith().what == "baking");
+    CHECK(shoal::busyWith().share == 0.5);
 }
 
 TEST_CASE("uniforms of every kind arrive", "[program]") {

@@ -13,7 +13,6 @@
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "reference/colliders.h"
-#include "run/progress.h"
 #include "scene/json/scene_file.h"
 #include "scene/known_colliders.h"
 
@@ -274,9 +273,8 @@ std::string asText(const glm::dvec3& place) {
 }
 
 Verdict checkScene(const std::string& file, bool lenient) {
-    FieldWatch watch;
     const Scene scene =
-        readScene(file, {watch.baking(), lenient, [](const Scene& read) { checkPlan(read); }});
+        readScene(file, {.lenient = lenient, .beforeBaking = [](const Scene& read) { checkPlan(read); }});
     const Plan plan = compile(scene);
     for (const Group& group : scene.groups)
         checkTexture(group.molecule);

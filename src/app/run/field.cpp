@@ -5,6 +5,7 @@
 
 #include "app/line/commands.h"
 #include "app/molecule/canvas.h"
+#include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/json_build.h"
 #include "core/printable.h"
@@ -186,8 +187,7 @@ std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warnin
     if (asked.resolution || asked.error || asked.shell || asked.thickness)
         throw Error(
             "--resolution, --error, --shell and --thickness are of a model file: a scene has its own");
-    FieldWatch watch;
-    const Scene scene = readScene(options.files.front(), {watch.baking(), options.lenient});
+    const Scene scene = readScene(options.files.front(), SceneOptions{.lenient = options.lenient});
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {
@@ -214,9 +214,8 @@ std::vector<BakedField> fieldsOfModel(const Options& options, std::vector<Warnin
     out.mesh = loadMesh(file, options.lenient);
     for (const std::string& note : out.mesh.notes)
         warnings.push_back({{file, 0, 0, {}}, note});
-    FieldWatch watch;
     try {
-        out.field = distanceFieldOf(out.mesh, out.request, watch.baking(), warnings);
+        out.field = distanceFieldOf(out.mesh, out.request, {cacheFolder(), {}}, warnings);
     } catch (const Error& error) {
         throw Error(Location{file, 0, 0, {}}, error.message());
     }

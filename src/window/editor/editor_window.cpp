@@ -65,6 +65,8 @@ class EditorWindow : public WindowLoop {
         return false;
     }
 
+    double moves() override { return stage_.playing ? EditorStage::frameRate : 0; }
+
     void drawPicture() override {
         follow();
         advance();

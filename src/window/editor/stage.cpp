@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/json_edit.h"
 #include "gpu/gl.h"
@@ -15,7 +16,6 @@ namespace shoal::window {
 
 namespace {
 
-constexpr double frameRate = 60;
 constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
 
 // Whether the same programs run both: their text holds all but the springs' numbers and the start.
@@ -106,6 +106,14 @@ void EditorStage::show(const Molecule& molecule, const StageSettings& settings) 
     Plan plan = compile(scene, {.liveSprings = true});
     const bool same = simulation_ && sameProgram(plan, simulation_->plan());
     const bool looks = renderer_ && sameLooks(molecule, drawn_) && !other;
+    std::unique_ptr<Renderer> renderer;  // before anything changes, since it may fail
+    if (!looks) {
+        RenderOptions options;
+        options.width = renderer_ ? renderer_->width() : 64;
+        options.height = renderer_ ? renderer_->height() : 64;
+        options.grid = true;
+        renderer = std::make_unique<Renderer>(*context_, scene, plan, options);
+    }
     scene_ = scene;
     settings_ = settings;
     const std::vector<GroupState> start = {plan.groups[0].start};
@@ -114,12 +122,7 @@ void EditorStage::show(const Molecule& molecule, const StageSettings& settings) 
     else
         rebuild(plan, !other);
     if (!looks) {
-        RenderOptions options;
-        options.width = renderer_ ? renderer_->width() : 64;
-        options.height = renderer_ ? renderer_->height() : 64;
-        options.grid = true;
-        renderer_.reset();
-        renderer_ = std::make_unique<Renderer>(*context_, scene_, plan, options);
+        renderer_ = std::move(renderer);
         drawn_ = molecule;
     }
     if (played_.empty() || frame_ == 0) {

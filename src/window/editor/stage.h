@@ -29,6 +29,8 @@ struct StageSettings {
 
 class EditorStage {
   public:
+    static constexpr double frameRate = 60;  // Hz
+
     explicit EditorStage(gpu::Context& context);
 
     // Shows a valid molecule, played by `settings`; takes over what differs from before. Error: compile's;
@@ -44,7 +46,7 @@ class EditorStage {
     void seek(int frame);  // one that was played
     int frame() const { return frame_; }
     int frames() const { return int(played_.size()); }  // that were played, the rest shape with them
-    double time() const { return frame_ / 60.0; }       // s
+    double time() const { return frame_ / frameRate; }  // s
     bool moved() const { return ready() && (playing || frame_ > 0); }  // or it moves: it is not as edited
 
     // A vertex that the pointer holds follows it. Nothing: none is held.
