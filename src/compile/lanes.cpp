@@ -73,7 +73,11 @@ constexpr int mostMolecules = 32, fewLanes = 640, mostLanes = 1024;
 //   64, 125, 0                     2,850   3,638       54,612   54,772
 //   64, 306, 98                    5,566   6,683      138,159  149,755
 //
-// A lane a molecule is always best, but what is written out takes long to compile: then a lane a vertex.
+// A lane a molecule is always best, but what is written out takes long to compile: then a lane a vertex,
+// unless it takes longer over the frames of the run. These seconds of a processor it takes more, a substep of
+// a molecule, for each spring and vertex; so many frames are as usual, where the run does not say.
+constexpr double moreOfSpring = 85e-9, moreOfVertex = 11e-9;
+constexpr int usualFrames = 600;
 constexpr double mostSeconds = 5;      // to the first frame, where there is a choice
 constexpr double longestSeconds = 12;  // where there is none: more is refused
 
@@ -81,14 +85,26 @@ constexpr double longestSeconds = 12;  // where there is none: more is refused
 // which it is off by 9 % (root mean square) and by 30 % at most. Fields and loops that are kept were fitted
 // to a few apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times
 // as long.
-constexpr double start = 0.7;  // of everything else
+constexpr double start = 0.7;     // of everything else
+constexpr double ofMatrix = 3.5;  // all of it, with a lane a vertex and a matrix (compile/newton.h)
 constexpr double ofVertex = 0.0048, ofTriangle = 0.0103;
 constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
 constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
 constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
 
+// Whether a CPU rasteriser is done sooner with a lane a molecule. Bodies, which the two forms answer in
+// different ways, do not depend on how long a run is.
+bool paysToCompile(const Plan& plan, const GroupPlan& group) {
+    const double seconds = secondsToCompile(plan, group);
+    if (group.rigid) return seconds <= mostSeconds;
+    const double more = double(plan.frames > 0 ? plan.frames : usualFrames) * group.count * plan.substeps *
+                        (group.springCount * moreOfSpring + group.vertexCount * moreOfVertex);
+    if (plan.frames == 0 && seconds <= mostSeconds) return true;
+    return seconds <= longestSeconds && seconds - start <= more;
+}
+
 bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {
-    if (limits.software) return secondsToCompile(plan, group) <= mostSeconds;
+    if (limits.software) return paysToCompile(plan, group);
     return group.vertexCount <= (group.needs.collide ? gpuLane : gpuLaneFree);
 }
 
@@ -133,7 +149,7 @@ WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
 }
 
 double secondsToCompile(const Plan& plan, const GroupPlan& group, Lanes lanes) {
-    if (lanes == Lanes::vertex) return 0;
+    if (lanes == Lanes::vertex) return solver(group.solver).spread ? ofMatrix : 0;
     const double vertices = group.vertexCount;
     double ofEach = ofVertex;
     if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;

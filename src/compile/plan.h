@@ -88,6 +88,7 @@ float largestScale(const GroupPlan& group);  // of the rest lengths
 struct Plan {
     std::string sceneName;
     double frameRate = 60;
+    int frames = 0;  // that a run asks for, for chooseLanes(); 0: not known
     int substeps = 4;
     glm::dvec3 gravity{0};
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;

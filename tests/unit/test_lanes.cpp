@@ -71,10 +71,32 @@ TEST_CASE(
         for (const int colliders : {0, 1})
             CHECK(chosen(planOf(row(vertices, true), colliders), true) == Lanes::molecule);
     CHECK(chosen(planOf(row(24, true), 2), true) == Lanes::molecule);
-    CHECK(chosen(planOf(row(48, true), 2), true) == Lanes::vertex);
     CHECK(chosen(planOf(bench::cloth(6), 1), true) == Lanes::molecule);
-    CHECK(chosen(planOf(bench::cloth(8), 1), true) == Lanes::vertex);
     CHECK(chosen(planOf(row(65, false), 0), true) == Lanes::vertex);
+}
+
+TEST_CASE("a CPU rasteriser compiles for as long as the frames of the run are worth it", "[lanes]") {
+    const auto chosenFor = [](Plan plan, int frames, int count) {
+        plan.frames = frames;
+        plan.groups[0].count = count;
+        return chosen(plan, true);
+    };
+    const Plan quick = planOf(row(24, true), 1), slow = planOf(bench::cloth(8), 1);
+    CHECK(secondsToCompile(quick, quick.groups[0]) < 5);
+    CHECK(secondsToCompile(slow, slow.groups[0]) > 5);
+    CHECK(chosenFor(quick, 0, 1) == Lanes::molecule);
+    CHECK(chosenFor(quick, 2, 20) == Lanes::vertex);
+    CHECK(chosenFor(quick, 1000, 20) == Lanes::molecule);
+    CHECK(chosenFor(slow, 0, 1) == Lanes::vertex);
+    CHECK(chosenFor(slow, 0, 1000) == Lanes::molecule);
+    CHECK(chosenFor(slow, 2, 1000) == Lanes::vertex);
+    // nor where it would be refused
+    const Plan lasting = planOf(row(64, true), 3);
+    CHECK(chosenFor(lasting, 1000, 1000) == Lanes::vertex);
+    // bodies go the same way however far they go
+    Plan body = quick;
+    body.groups[0].rigid = true;
+    CHECK(chosenFor(body, 2, 20) == Lanes::molecule);
 }
 
 TEST_CASE("what a CPU rasteriser would compile for long is refused where a lane a molecule is the only form",
@@ -129,12 +151,19 @@ TEST_CASE("auto takes no implicit solver that a CPU rasteriser would refuse to c
     while (choice(stiffer).groups[0].solver == SolverKind::leapfrog)
         stiffer *= 1.05;
     CHECK(chosen(choice(stiffer), true) == Lanes::molecule);
-    // no explicit solver is stable: a GPU runs it
+    // no explicit solver is stable
     scene.groups[0].molecule = bench::cloth(8);
     const Plan stiff = choice(1e5);
-    CHECK(stiff.groups[0].solver == SolverKind::bdf2Xpbd);
-    CHECK(chosen(stiff, false) == Lanes::molecule);
-    CHECK_THROWS_AS(chosen(stiff, true), Error);
+    CHECK(stiff.groups[0].solver == SolverKind::bdf2Newton);
+    CHECK_THAT(stiff.groups[0].solverWhy, Catch::Contains("too long to compile"));
+    CHECK_NOTHROW(chosen(stiff, true));
+    // bodies that may strike a collider stay in one lane, which a GPU runs
+    scene.colliders.resize(1);
+    scene.groups[0].molecule = block(4);
+    const Plan body = choice(1);
+    CHECK(body.groups[0].solver == SolverKind::bdf2Xpbd);
+    CHECK(chosen(body, false) == Lanes::molecule);
+    CHECK_THROWS_AS(chosen(body, true), Error);
 }
 
 TEST_CASE("bdf2-newton has a lane a vertex, and auto takes it where a lane does not hold a stiff molecule",

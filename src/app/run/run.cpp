@@ -363,6 +363,7 @@ int runCommand(const Options& options) {
         return 0;
     }
     if (!loaded) return listInstead(options);
+    loaded->plan.frames = options.frames.value_or(headlessFrames);
     HeadlessRun run(options, context, std::move(*loaded));
     const FinishesOnSignal finishes;
     run.go();
