@@ -3,18 +3,21 @@
 
 #include "render/occlusion.glsl"
 
-out vec4 fragment;
+in vec2 screen;
+
+out float fragment;
 
 void main()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    ivec2 last = textureSize(occlusion, 0) - 1;
-    float depth = texelFetch(occlusion, texel, 0).y;
-    vec2 sum = vec2(0.0);
-    for (int y = -2; y < 2; ++y)
-        for (int x = -2; x < 2; ++x) {
-            vec2 other = texelFetch(occlusion, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xy;
-            sum += likeness(other.y, depth) * vec2(other.x, 1.0);
-        }
-    fragment = vec4(sum.x / max(sum.y, 1e-3), depth, 0.0, 1.0);
+    float depth = texture(occlusion, screen).x;
+    vec4 sum = vec4(0.0), weights = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec4 texels = texelsAround(texel + 2 * ivec2(i & 1, i >> 1) - 1);
+        vec4 alike = likeness(texels, depth);
+        weights += alike;
+        sum += alike * seenFrom(texels);
+    }
+    float seen = dot(sum, vec4(1.0)) / (max(dot(weights, vec4(1.0)), 1e-3) * float(seenBits));
+    fragment = texelOf(seen, depth);
 }

@@ -22,7 +22,7 @@ out vec4 fragment;
 // the sun as well.
 vec3 occluded(vec3 radiance, ivec2 pixel)
 {
-    float stored = texelFetch(sceneDepth, pixel, 0).r;
+    float stored = texture(sceneDepth, screen).r;
     if (stored >= 1.0) return radiance;
     float seen = skySeen(pixel, nearest / (1.0 - stored));
     float luminance = dot(radiance, vec3(0.2126, 0.7152, 0.0722));

@@ -26,15 +26,20 @@ Lighting::Lighting(const gpu::ContextInfo& info, const Scene& scene, const Bound
       shadows_(shadows),
       water_(water),
       blends_(blends),
-      gathers_(info.shadowGather),
+      gathers_(gatherDefines(info)),
       lateDepth_(info.software && info.stencilExport && std::min(samples, info.maxSamples) > 1) {}
+
+std::vector<std::string> gatherDefines(const gpu::ContextInfo& info) {
+    if (!info.shadowGather) return {};
+    return {gpu::requireExtension("GL_ARB_gpu_shader5"), "GATHERS"};
+}
 
 std::vector<std::string> Lighting::defines() const {
     std::vector<std::string> out = toneDefines();
     out.push_back(gpu::constant("SHADOWS", shadows_.near != nullptr));
     out.push_back(gpu::constant("WIDE_SHADOWS", shadows_.wide != nullptr));
     if (water_ != nullptr) out.emplace_back("WATER");
-    if (gathers_) out.insert(out.end(), {gpu::requireExtension("GL_ARB_gpu_shader5"), "GATHERS"});
+    out.insert(out.end(), gathers_.begin(), gathers_.end());
     if (lateDepth_)
         out.insert(out.end(), {gpu::requireExtension("GL_ARB_shader_stencil_export"), "LATE_DEPTH"});
     return out;

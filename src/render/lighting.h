@@ -97,8 +97,12 @@ class Lighting {
     Shadows shadows_;
     const WaterLight* water_;
     bool blends_;
-    bool gathers_, lateDepth_;  // render/light.glsl
+    std::vector<std::string> gathers_;
+    bool lateDepth_;  // render/light.glsl
 };
+
+// Of programs that may read four texels at once.
+std::vector<std::string> gatherDefines(const gpu::ContextInfo& info);
 
 // Unit. Straight down where the direction is zero.
 glm::dvec3 towardsSun(const Light& light);

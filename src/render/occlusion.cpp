@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
+#include "gpu/shader_source.h"
 #include "render/lighting.h"
 
 namespace shoal {
@@ -14,7 +15,7 @@ static double luminance(const glm::dvec3& color) {
 }
 
 AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
-    : context_(&context), strength_(float(scene.sky.occlusion)) {
+    : context_(&context), gathers_(gatherDefines(context.info())), strength_(float(scene.sky.occlusion)) {
     if (!*this) return;
     const Sky& sky = scene.sky;
     ambient_ = float(sky.intensity * luminance(sky.zenith + sky.horizon + sky.ground) / 3);
@@ -22,16 +23,22 @@ AmbientOcclusion::AmbientOcclusion(gpu::Context& context, const Scene& scene)
     // metres away.
     const double distance = std::max(glm::distance(scene.camera.eye, scene.camera.target), 1e-3);
     farthest_ = float(2 * reachByHeight * 2 * std::tan(scene.camera.fieldOfView / 2) * distance);
-    find_ = gpu::Program(context, {"render/screen.vert", "render/occlusion.frag", {}, {}, "occlusion"});
+    find_ = gpu::Program(context, {"render/screen.vert", "render/occlusion.frag", gathers_, {}, "occlusion"});
     blur_ = gpu::Program(
-        context, {"render/screen.vert", "render/occlusion_smooth.frag", {}, {}, "occlusion, smoothed"});
+        context, {"render/screen.vert", "render/occlusion_smooth.frag", gathers_, {}, "occlusion, smoothed"});
+}
+
+std::vector<std::string> AmbientOcclusion::defines() const {
+    std::vector<std::string> out = gathers_;
+    out.push_back(gpu::constant("OCCLUSION", bool(*this)));
+    return out;
 }
 
 void AmbientOcclusion::resize(int width, int height) {
     if (!*this) return;
     const int w = std::max(1, (width + 1) / 2), h = std::max(1, (height + 1) / 2);
-    rough_ = gpu::Texture(*context_, gpu::Format::rg16f, w, h, "occlusion");
-    smooth_ = gpu::Texture(*context_, gpu::Format::rg16f, w, h, "occlusion, smoothed");
+    rough_ = gpu::Texture(*context_, gpu::Format::r32f, w, h, "occlusion");
+    smooth_ = gpu::Texture(*context_, gpu::Format::r32f, w, h, "occlusion, smoothed");
     roughTarget_ = gpu::Framebuffer(*context_, {&rough_}, nullptr, "occlusion");
     smoothTarget_ = gpu::Framebuffer(*context_, {&smooth_}, nullptr, "occlusion, smoothed");
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
@@ -17,6 +18,8 @@ class AmbientOcclusion {
     // None where the scene's sky has no occlusion.
     AmbientOcclusion(gpu::Context& context, const Scene& scene);
 
+    // Those of the picture's program.
+    std::vector<std::string> defines() const;
     void resize(int width, int height);  // of the picture
     // `sceneDepth`: of all that is not blended.
     void draw(const Eye& eye, const gpu::Texture& sceneDepth);
@@ -26,6 +29,7 @@ class AmbientOcclusion {
 
   private:
     gpu::Context* context_;
+    std::vector<std::string> gathers_;
     float strength_;  // 0: none
     float ambient_;   // luminance of the sky's light on something grey
     float farthest_;  // m: no sample lies further off

@@ -27,9 +27,11 @@ static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene&
 
 static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
                                                const AmbientOcclusion& occlusion, bool clear, bool linear) {
-    std::vector<std::string> out = lighting.toneDefines();
+    std::vector<std::string> out = occlusion.defines();
+    for (const std::string& define : lighting.toneDefines())
+        out.push_back(define);
     out.insert(out.end(), {gpu::constant("CLEAR", clear), gpu::constant("LINEAR", linear),
-                           gpu::constant("BEAMS", bool(beams)), gpu::constant("OCCLUSION", bool(occlusion))});
+                           gpu::constant("BEAMS", bool(beams))});
     return out;
 }
 
