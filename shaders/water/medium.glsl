@@ -50,7 +50,8 @@ vec3 scatteredFrom(float depth, vec3 direction, float way)
 {
     float slant = max(1.0 - direction.y, 0.02);
     float forward = max(dot(direction, sunDirection), 0.0);
-    float glow = 1.0 + 0.9 * pow(forward, 5.0);
+    float square = forward * forward;
+    float glow = 1.0 + 0.9 * square * square * forward;
     vec3 seen = waterScattering * exp(-waterExtinction * max(depth, 0.0)) / slant;
     return glow * seen * (1.0 - exp(-waterExtinction * (slant * way)));
 }

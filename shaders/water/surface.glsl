@@ -11,7 +11,7 @@ vec3 fromBelow(vec3 direction)
     vec2 point = causticsAt.zw + causticsAt.y * direction.xz * way;
     // Waves that are seen from far or at a low angle are finer than a pixel: the surface is flat there.
     float rough = 2.2 / (1.0 + 0.0025 * way * way);
-    vec2 slope = rough * (waveSlope(point) + 0.6 * waveSlope(mat2(2.1, 1.3, -1.3, 2.1) * point));
+    vec2 slope = rough * rippledSlope(point);
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
 
     float cosine = clamp(dot(direction, normal), 0.0, 1.0);
@@ -29,7 +29,10 @@ vec3 fromBelow(vec3 direction)
         // The light's direction is that in the water; waves spread the sun's disc.
         vec3 bent = normalize(direction + 0.6 * (vec3(0.0, 1.0, 0.0) - normal));
         float towards = max(dot(bent, sunDirection), 0.0);
-        vec3 sun = sunColor * (0.9 * pow(towards, 24.0) + 9.0 * smoothstep(0.9965, 0.9995, towards));
+        float power2 = towards * towards;
+        float power4 = power2 * power2;
+        float power8 = power4 * power4;
+        vec3 sun = sunColor * (0.9 * power8 * power8 * power8 + 9.0 * smoothstep(0.9965, 0.9995, towards));
         vec3 sky = skyGradient(normalize(air)) * 1.1 + sun;
         seen = mix(sky, seen, reflected);
     }

@@ -90,8 +90,9 @@ void WaterLight::applyWaves(const gpu::Program& program, double time) const {
         const glm::dvec2 whole(wholeWaves[i]);
         constexpr double turn = 2 * std::numbers::pi;
         // The golden angle sets their phases apart at time 0.
-        const double phase = std::fmod(2.3999632 * double(i * i) - frequencyOf(whole, water_) * time, turn);
-        waves[i] = glm::vec4(glm::vec2(whole), float(focus / (turn * glm::dot(whole, whole))), float(phase));
+        const double turns =
+            std::fmod((2.3999632 * double(i * i) - frequencyOf(whole, water_) * time) / turn, 1);
+        waves[i] = glm::vec4(glm::vec2(whole), float(focus / (turn * glm::dot(whole, whole))), float(turns));
     }
     program.set("waves", std::span<const glm::vec4>(waves));
 }
