@@ -51,7 +51,7 @@ WaterLight::WaterLight(gpu::Context& context, const Water& water)
                          {},
                          "caustics"}),
       grid_(context, "caustics"),
-      caustics_(context, gpu::Format::rgba16f, texels, texels, "caustics"),
+      caustics_(context, gpu::Format::r32f, texels, texels, "caustics"),
       target_(context, {&caustics_}, nullptr, "caustics") {
     std::vector<uint32_t> indices;
     for (uint32_t y = 0; y < cells; ++y)

@@ -32,7 +32,7 @@ class WaterLight {
     void applyWaves(const gpu::Program& program, double time) const;      // water/waves.glsl
 
     const Water& water() const { return water_; }
-    const gpu::Texture& caustics() const { return caustics_; }  // RGBA16F, alike, 1: as under a calm surface
+    const gpu::Texture& caustics() const { return caustics_; }  // R32F, 1: as under a calm surface
 
   private:
     double tile() const;  // m
