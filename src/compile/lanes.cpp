@@ -96,11 +96,11 @@ constexpr double crowding = 57;  // vertices: twice as long for the same text, a
 // different ways, do not depend on how long a run is.
 bool paysToCompile(const Plan& plan, const GroupPlan& group) {
     const double seconds = secondsToCompile(plan, group);
-    if (group.rigid) return seconds <= mostSeconds;
+    if (seconds <= mostSeconds) return true;
+    if (group.rigid || seconds > longestSeconds) return false;
     const double more = double(plan.frames > 0 ? plan.frames : usualFrames) * group.count * plan.substeps *
                         (group.springCount * moreOfSpring + group.vertexCount * moreOfVertex);
-    if (plan.frames == 0 && seconds <= mostSeconds) return true;
-    return seconds <= longestSeconds && seconds - start <= more;
+    return seconds <= more;
 }
 
 bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -126,7 +127,7 @@ void drawWaiting(const std::string& words, double share) {
     centered();
     ImGui::Begin("Waiting", nullptr, plainWindow | ImGuiWindowFlags_NoInputs);
     ImGui::TextWrapped("%s", words.c_str());
-    if (share > 0) ImGui::ProgressBar(float(share), ImVec2(points(380), points(10)), "");
+    if (share > 0) ImGui::ProgressBar(float(share), ImVec2(-FLT_MIN, points(10)), "");
     ImGui::End();
 }
 
