@@ -2,6 +2,7 @@
 #include <cmath>
 #include <thread>
 
+#include "core/activity.h"
 #include "core/error.h"
 #include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
@@ -23,6 +24,7 @@ std::string methodError(const Scene& scene, const Simulation& simulation) {
     const Plan& plan = simulation.plan();
     if (plan.contact.any()) return "no error: the reference has no contact between molecules";
     if (plan.hasLife()) return "no error: the reference has no birth and death";
+    const Activity measuring("measuring the error");
     const AccuracyDevice device{.context = &simulation.context(),
                                 .cores = int(std::max(1u, std::thread::hardware_concurrency())),
                                 .path = simulation.path().path};

@@ -294,7 +294,7 @@ Panel::Action Panel::drawMethod(Controls& controls, const RunningScene& running)
     if (current == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
     if (ImGui::Button("Measure error")) action = Action::measure;
     tip("A few molecules of the scene's start against the double-precision reference, with this solver and "
-        "these substeps. The window waits for it some seconds.");
+        "these substeps. It takes some seconds.");
     if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
     return path != current ? Action::switchPath : action;
 }

@@ -124,7 +124,8 @@ void WindowLoop::tellWaiting(const Busy& busy) {
     if (width < 1 || height < 1) return;
     presentPicture();
     interface_->begin(true);
-    drawWaiting(busy.what + (glfwWindowShouldClose(window_) ? "; then it closes" : ""), busy.share);
+    const bool closes = glfwWindowShouldClose(window_) == GLFW_TRUE || signalThatAsked() != 0;
+    drawWaiting(busy.what + (closes ? "; then the window closes" : ""), busy.share);
     interface_->end();
     glfwSwapBuffers(window_);
 }
