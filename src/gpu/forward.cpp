@@ -16,6 +16,7 @@
 // kind became current; after that a call costs one comparison and one jump.
 #include <dlfcn.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -48,17 +49,18 @@ Procedure findProcedure(const char* name, Procedure self) {
     return found;
 }
 
+// The threads of two contexts may look at once, and find the same.
 template <typename Function>
 struct Forward {
-    Function function;
-    unsigned generation;  // of the loader that found it; 0: not looked for yet
+    std::atomic<Function> function;
+    std::atomic<unsigned> generation;  // of the loader that found it; 0: not looked for yet
 
     Function get(const char* name, Function self) {
-        if (generation != currentLoader.generation) {
+        if (generation.load(std::memory_order_acquire) != currentLoader.generation) {
             function = reinterpret_cast<Function>(findProcedure(name, reinterpret_cast<Procedure>(self)));
-            generation = currentLoader.generation;
+            generation.store(currentLoader.generation, std::memory_order_release);
         }
-        return function;
+        return function.load(std::memory_order_relaxed);
     }
 };
 

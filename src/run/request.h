@@ -38,8 +38,8 @@ struct RunRequest {
 // Puts the values that were asked for in place of the scene's.
 void apply(const RunRequest& request, Scene& scene);
 
-// Reads the scene of a file, with what was asked for. Error: the reader's, and
-// what `check` refuses, before anything is baked.
+// Reads the scene of a file, with what was asked for. Error: the reader's, and what `check` refuses, before
+// anything is baked.
 Scene readScene(const std::string& file, const RunRequest& request,
                 void (*check)(const Scene&) = checkCounts);
 

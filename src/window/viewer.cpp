@@ -87,7 +87,7 @@ class Viewer : public WindowLoop {
 
     void obey() override {
         if (!opening_.empty()) return openNow();
-        if (open_ && wish_.picture) takePicture();
+        if (open_ && wish_.picture) savePicture();
         if (open_) obeyPanels();
         for (const std::string& file : keys().dropped())
             takeDropped(file);
@@ -132,7 +132,7 @@ class Viewer : public WindowLoop {
     }
     bool rests() override { return !open_ || open_->picture.rests(); }
 
-    void takePicture() {
+    void savePicture() {
         drawPictureOf(*open_, false, true);
         captures_.takePicture(open_->running);
     }

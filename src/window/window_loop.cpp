@@ -92,6 +92,7 @@ bool WindowLoop::showFrame() {
     const bool last = options_.frames && shown_ + 1 >= *options_.frames;
     saves_ = saves_ || (last && !options_.screenshot.empty());
     work(&WindowLoop::drawPicture);
+    takePicture();
     presentPicture();
     interface_->begin();
     thread_->begin([this] { drawInterface(); });
@@ -131,29 +132,34 @@ void WindowLoop::tellWaiting(const Busy& busy) {
 }
 
 void WindowLoop::show(const gpu::Texture& picture) {
-    if (picture_.drawn != nullptr) glDeleteSync(picture_.drawn);
-    picture_ = {picture.id(), picture.width(), picture.height(), nullptr};
-    picture_.drawn = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (drawn_.drawn != nullptr) glDeleteSync(drawn_.drawn);
+    drawn_ = {picture.id(), picture.width(), picture.height(), nullptr};
+    drawn_.drawn = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     // A rasteriser draws for the other context without waiting for this one.
     context_.info().software ? glFinish() : glFlush();
-    isNew_ = true;
+}
+
+// Takes what the thread of the scene has drawn, while that rests.
+void WindowLoop::takePicture() {
+    const GLuint texture = std::exchange(drawn_.texture, 0);
+    if (texture == 0) return;
+    glWaitSync(drawn_.drawn, 0, GL_TIMEOUT_IGNORED);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source_);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    sourceWidth_ = drawn_.width;
+    sourceHeight_ = drawn_.height;
 }
 
 void WindowLoop::presentPicture() {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glDisable(GL_SCISSOR_TEST);
-    if (picture_.texture == 0) {
+    if (sourceWidth_ == 0) {
         glClearColor(0.1f, 0.13f, 0.12f, 1);
         glClear(GL_COLOR_BUFFER_BIT);
     } else {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source_);
-        if (std::exchange(isNew_, false)) {
-            glWaitSync(picture_.drawn, 0, GL_TIMEOUT_IGNORED);
-            glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_.texture,
-                                   0);
-        }
-        const bool same = picture_.width == width_ && picture_.height == height_;
-        glBlitFramebuffer(0, 0, picture_.width, picture_.height, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+        const bool same = sourceWidth_ == width_ && sourceHeight_ == height_;
+        glBlitFramebuffer(0, 0, sourceWidth_, sourceHeight_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
                           same ? GL_NEAREST : GL_LINEAR);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     }

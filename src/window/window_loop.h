@@ -71,12 +71,12 @@ class WindowLoop {
     bool showFrame();
     void work(void (WindowLoop::*part)());
     void tellWaiting(const Busy& busy);
+    void takePicture();
     void presentPicture();
     void saveScreenshot() const;
 
-    // The picture, as the thread of the scene has drawn it.
     struct Picture {
-        unsigned texture = 0;
+        unsigned texture = 0;  // 0: it was taken
         int width = 0, height = 0;
         GLsync drawn = nullptr;
     };
@@ -85,12 +85,12 @@ class WindowLoop {
     gpu::Context& context_;
     GLFWwindow* window_;
     std::optional<Interface> interface_;
-    ContextThread* thread_ = nullptr;  // while the loop goes on
-    Picture picture_;
-    bool isNew_ = false,
-         closes_ = false;  // the picture, since it was presented; the window, after this frame
-    std::string title_;    // not set yet
-    unsigned source_ = 0;  // the framebuffer that holds the picture, in the window's context
+    ContextThread* thread_ = nullptr;         // while the loop goes on
+    Picture drawn_;                           // by the thread of the scene
+    unsigned source_ = 0;                     // the window's framebuffer that holds the picture
+    int sourceWidth_ = 0, sourceHeight_ = 0;  // pixels; 0: there is no picture yet
+    bool closes_ = false;                     // after this frame
+    std::string title_;                       // not set yet
     int width_ = 0, height_ = 0, shown_ = 0;
     bool saves_ = false;
     double lastSeconds_ = 0, frameSeconds_ = 0;
