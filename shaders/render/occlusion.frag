@@ -18,7 +18,7 @@ vec3 placeAt(vec2 texel)
 {
     vec2 size = vec2(textureSize(sceneDepth, 0));
     vec2 uv = (clamp(texel, vec2(0.0), size - 1.0) + 0.5) / size;
-    float depth = nearest / max(1.0 - texture(sceneDepth, uv).r, 1e-7);
+    float depth = nearest / max(1.0 - textureLod(sceneDepth, uv, 0.0).r, 1e-7);
     return depth * vec3((2.0 * uv - 1.0) * tangents, -1.0);
 }
 

@@ -199,17 +199,11 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
                                  : takesLong(plan, out)
                                      ? "a CPU rasteriser would take too long to compile bdf2-xpbd"
                                      : nullptr;
-        // which a collider answers with all its vertices in one lane
-        const bool isBody = solidFrequency(analysis) * step > 1 && !scene.colliders.empty();
-        const bool isLong = fitsLane(out) && takesLong(plan, out) && !isBody;
         if (explicitly)
             out.solver = SolverKind::leapfrog;
-        else if (!fitsLane(out) || isLong)
+        else if (!fitsLane(out))
             out.solver = SolverKind::bdf2Newton;
-        out.solverWhy = concat(explicitly ? explicitly
-                               : isLong   ? "the springs are stiff, and bdf2-xpbd takes a CPU rasteriser too "
-                                            "long to compile"
-                                          : "the springs are stiff",
+        out.solverWhy = concat(explicitly ? explicitly : "the springs are stiff",
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     }
     out.stableStep = solver(out.solver).longestStep(analysis);

@@ -92,8 +92,8 @@ constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
 constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
 constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
 
-// Whether a CPU rasteriser is done sooner with a lane a molecule. Bodies, which the two forms answer in
-// different ways, do not depend on how long a run is.
+// Whether a run takes a CPU rasteriser fewer seconds of its processors with a lane a molecule. Bodies, which
+// the two forms answer in different ways, do not depend on how long a run is.
 bool paysToCompile(const Plan& plan, const GroupPlan& group) {
     const double seconds = secondsToCompile(plan, group);
     if (seconds <= mostSeconds) return true;

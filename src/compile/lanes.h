@@ -44,7 +44,7 @@ struct WorkgroupShape {
 WorkgroupShape workgroupShape(int vertices, int sharedBytes);
 
 // Returns about how long a CPU rasteriser takes to a group's first frame without a cache, in seconds of a
-// processor; 0: not long, as with a lane a vertex.
+// processor; 0: it is not long.
 double secondsToCompile(const Plan& plan, const GroupPlan& group, Lanes lanes = Lanes::molecule);
 // Whether that is so long that it is refused where there is no other form.
 bool takesLong(const Plan& plan, const GroupPlan& group);

@@ -39,8 +39,8 @@ class Framebuffer {
     void blitTo(const Framebuffer& other) const { blit(other, GL_COLOR_BUFFER_BIT); }
     // Copies the depth, one sample of each pixel. Sizes and formats must be equal.
     void blitDepthTo(const Framebuffer& other) const { blit(other, GL_DEPTH_BUFFER_BIT); }
-    // Copies the first colour into a framebuffer that is not ours. LINEAR where the sizes
-    // differ and there is 1 sample.
+    // Copies the first colour into a framebuffer that is not ours. LINEAR where the sizes differ and there is
+    // 1 sample.
     void blitTo(GLuint framebuffer, int width, int height) const;
 
     GLuint id() const { return handle_.id(); }

@@ -145,6 +145,10 @@ void beginFirstUse(FirstUse use) {
     isFirst = true;
 }
 
+struct EndsFirstUse {
+    ~EndsFirstUse() { endFirstUse(); }
+};
+
 }  // namespace
 
 Program::Program(Context& context, const ProgramOptions& options) {
@@ -165,6 +169,7 @@ Program::Program(Context& context, const ProgramOptions& options) {
         for (const std::string& file : stage.source.files)
             if (file.rfind(context.shaders(), 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
+    const EndsFirstUse ends;  // also where it is refused
     beginFirstUse({slots_->label, slots_->expected});
     if (!context.cache().active()) {
         compileAndLink(id(), stages, options, slots_->label);
@@ -181,7 +186,6 @@ Program::Program(Context& context, const ProgramOptions& options) {
         }
     }
     slots_->spent = firstUse().seconds;
-    endFirstUse();
     for (const Stage& stage : stages) {
         for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
             declared_.merge(declared(*text, "uniform"));

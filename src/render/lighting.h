@@ -101,7 +101,7 @@ class Lighting {
     bool lateDepth_;  // render/light.glsl
 };
 
-// Of programs that may read four texels at once.
+// Returns the defines of a program that reads four texels at once where the driver can.
 std::vector<std::string> gatherDefines(const gpu::ContextInfo& info);
 
 // Unit. Straight down where the direction is zero.

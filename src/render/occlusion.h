@@ -18,7 +18,7 @@ class AmbientOcclusion {
     // None where the scene's sky has no occlusion.
     AmbientOcclusion(gpu::Context& context, const Scene& scene);
 
-    // Those of the picture's program.
+    // Returns what the picture's program defines to read it.
     std::vector<std::string> defines() const;
     void resize(int width, int height);  // of the picture
     // `sceneDepth`: of all that is not blended.

@@ -117,8 +117,9 @@ void BusyWatch::watch() {
 void BusyWatch::show(const Busy& busy) {
     const bool waits = !busy.what.empty() && busy.seconds >= std::chrono::duration<double>(patience_).count();
     const int percent = int(100 * busy.share);
-    if (!waits || percent < percent_) bar_.reset();  // or the same begins anew, finer
+    if (!waits || percent < percent_ || busy.what != barOf_) bar_.reset();  // or the same begins anew, finer
     percent_ = percent;
+    barOf_ = busy.what;
     if (!waits) return;
     const bool isNew = told_.insert(busy.what).second;
     if (percent > 0 && ::isatty(2) != 0) {

@@ -73,6 +73,7 @@ class BusyWatch {
     std::set<std::string> told_;
     std::optional<Progress> bar_;  // of what goes on
     int percent_ = 0;              // of it
+    std::string barOf_;
     std::mutex guard_;
     std::condition_variable end_;
     bool ends_ = false;

@@ -71,6 +71,8 @@ FinishesOnSignal::~FinishesOnSignal() {
 void leaveSignalsToMain() {
     sigset_t all;
     sigfillset(&all);
+    for (const int own : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP})  // faults of the thread's own
+        sigdelset(&all, own);
     ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 

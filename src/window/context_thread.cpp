@@ -10,6 +10,8 @@ namespace shoal::window {
 ContextThread::ContextThread(gpu::Context& context) : context_(context) {
     context_.leave();
     thread_ = std::thread([this] { go(); });
+    begin([this] { context_.makeCurrent(); });
+    finish();
 }
 
 ContextThread::~ContextThread() {
@@ -50,7 +52,6 @@ void ContextThread::go() {
         if (!work_) break;
         lock.unlock();
         try {
-            context_.makeCurrent();
             work_();
         } catch (...) {
             thrown_ = std::current_exception();

@@ -70,7 +70,7 @@ void Input::listen() {
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         for (int i = 0; i < count; ++i)
-            inputOf(window).dropped_.emplace_back(files[i]);
+            inputOf(window).arrived_.emplace_back(files[i]);
     });
     glfwSetWindowFocusCallback(window_, ImGui_ImplGlfw_WindowFocusCallback);
     glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);
@@ -83,6 +83,7 @@ void Input::wait() {
 void Input::next(bool chooses) {
     if (frames_.is_open() && waiting_.empty()) frames_.put('.').flush();
     pressed_.clear();
+    dropped_ = std::exchange(arrived_, {});
     acts_ = !buttons_.empty() || !down_.empty();
     Taken taken;
     while (!waiting_.empty() && !taken.ends && fits(waiting_.front(), taken)) {

@@ -44,10 +44,10 @@ class Input {
     void look(bool heard) { heard_ = heard; }
     bool pressed(int key) const { return heard_ && pressed_.contains(key); }  // went down in this frame
     bool held(int key) const { return down_.contains(key); }
-    bool control() const;                             // is held
-    bool waits() const { return !waiting_.empty(); }  // an event, for the next frame
+    bool control() const;                                                  // is held
+    bool waits() const { return !waiting_.empty() || !arrived_.empty(); }  // an event, for the next frame
     bool acts() const { return acts_; }  // something is held, or happened in this frame, but for moves
-    std::vector<std::string> dropped() { return std::exchange(dropped_, {}); }  // files, since the last call
+    const std::vector<std::string>& dropped() const { return dropped_; }  // files, in this frame
 
   private:
     struct Event {
@@ -68,8 +68,8 @@ class Input {
 
     GLFWwindow* window_;
     std::deque<Event> waiting_;
-    std::vector<std::string> dropped_;
-    std::set<int> down_, pressed_;  // keys
+    std::vector<std::string> arrived_, dropped_;  // files, for the next frame and of this one
+    std::set<int> down_, pressed_;                // keys
     bool heard_ = true, acts_ = false;
     std::set<int> buttons_;  // that are held
     ImVec2 place_{0, 0};     // of the pointer

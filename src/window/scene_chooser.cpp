@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/image.h"
+#include "gpu/gl.h"
 #include "scene/json/scene_file.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
@@ -37,6 +38,7 @@ const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
                 texture.upload(gpu::Traffic::Kind::parameters, 0, 0, image.width, image.height,
                                image.pixels.data(), image.pixels.size());
                 texture.setLinear(true);
+                glFinish();  // the panels are drawn in another context
             }
         } catch (const Error&) {
             // a list without one of its pictures

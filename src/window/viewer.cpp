@@ -27,6 +27,7 @@ struct Wish {
     ScenePanel::Action scene = ScenePanel::Action::none;
     std::string open;  // a scene's file
     bool close = false, picture = false;
+    std::optional<Prefer> prefer;  // of the file and the window, which both changed
 };
 
 class Viewer : public WindowLoop {
@@ -45,6 +46,10 @@ class Viewer : public WindowLoop {
     void run() {
         const FinishesOnSignal finishes;
         go();
+    }
+
+  private:
+    void leave() override {
         if (!open_) return;
         captures_.endVideo(open_->running);
         open_->saveIfAsked(true);
@@ -53,7 +58,6 @@ class Viewer : public WindowLoop {
                       << printable(open_->running.scene().file) << "\n";
     }
 
-  private:
     // Not before the user has said what becomes of what is not saved.
     bool mayClose() override {
         if (!open_ || discards_ || !open_->unsaved()) return true;
@@ -88,6 +92,7 @@ class Viewer : public WindowLoop {
     void obey() override {
         if (!opening_.empty()) return openNow();
         if (open_ && wish_.picture) savePicture();
+        if (open_ && wish_.prefer && open_->reload.settle(open_->running, *wish_.prefer)) takeReloaded();
         if (open_) obeyPanels();
         for (const std::string& file : keys().dropped())
             takeDropped(file);
@@ -98,7 +103,7 @@ class Viewer : public WindowLoop {
         OpenScene& open = *open_;
         const gpu::Traffic before = context().traffic();
         ScenePointer::holdForces(open);
-        const bool steps = !open.controls.paused || steps_;
+        const bool steps = isDue() || steps_;
         if (steps) {
             Simulation& simulation = open.simulation();
             open.controls.lead(simulation.parameters, simulation.plan(), simulation.parameters.frameTime);
@@ -361,8 +366,7 @@ class Viewer : public WindowLoop {
                                         points(hidden_ ? 12 : 392));
         if (closed) troubles.clear();
         if (asked_) return;
-        const std::optional<Prefer> answer = askWhoWins(reload.conflicts());
-        if (answer && reload.settle(open_->running, *answer)) takeReloaded();
+        wish_.prefer = askWhoWins(reload.conflicts());
     }
 
     // ---- The mouse and the keys

@@ -11,10 +11,13 @@
 
 #include "core/printable.h"
 #include "gpu/gl.h"
+#include "gpu/program.h"
 #include "render/picture.h"
 #include "run/signals.h"
 
 namespace shoal::window {
+
+static constexpr double early = 0.002;  // s, that a step may come before it is due
 
 WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
     : options_(std::move(options)),
@@ -49,25 +52,34 @@ void WindowLoop::go() {
     while (!ends()) {
         awaitFrame();
         const auto time = std::chrono::steady_clock::now();
-        lastSeconds_ = std::chrono::duration<double>(time - last).count();
+        const double seconds = std::chrono::duration<double>(time - last).count();
+        lastSeconds_ = seconds - waited_;
         last = time;
         // the first intervals hold start-up, not frames
-        if (shown_ > 1) frameSeconds_ += (lastSeconds_ - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
+        if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
         if (!showFrame()) break;
     }
+    work([this] { leave(); });
 }
 
 void WindowLoop::awaitFrame() {
-    constexpr double pause = 0.05, early = 0.002;  // s
+    constexpr double pause = 0.05;  // s, at the most, so that the window answers
+    const double start = wallTime(), until = moves() > 0 ? std::min(next_ - early, start + pause) : 0;
     if (rests() && !interface_->input().waits())
         glfwWaitEventsTimeout(pause);
     else
         glfwPollEvents();
-    const double rate = moves();
-    if (rate <= 0) return;
-    next_ = std::max(next_ + 1 / rate, wallTime());  // what is late is not caught up
-    for (double left; (left = next_ - wallTime()) > early && !glfwWindowShouldClose(window_);)
+    for (double left;
+         (left = until - wallTime()) > 0 && !glfwWindowShouldClose(window_) && !signalThatAsked();)
         glfwWaitEventsTimeout(left);
+    waited_ = wallTime() - start;
+}
+
+bool WindowLoop::isDue() {
+    const double time = wallTime(), rate = moves();
+    if (rate <= 0 || time < next_ - early) return false;
+    next_ = std::max(next_, time - early) + 1 / rate;  // what is late is not caught up
+    return true;
 }
 
 bool WindowLoop::ends() {
@@ -91,9 +103,16 @@ bool WindowLoop::showFrame() {
     }
     const bool last = options_.frames && shown_ + 1 >= *options_.frames;
     saves_ = saves_ || (last && !options_.screenshot.empty());
-    work(&WindowLoop::drawPicture);
+    work([this] {
+        if (presented_ != nullptr) {
+            glWaitSync(presented_, 0, GL_TIMEOUT_IGNORED);
+            glDeleteSync(std::exchange(presented_, nullptr));
+        }
+        drawPicture();
+    });
     takePicture();
-    presentPicture();
+    presentPicture(width_, height_);
+    presented_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     interface_->begin();
     thread_->begin([this] { drawInterface(); });
     thread_->finish();
@@ -101,16 +120,17 @@ bool WindowLoop::showFrame() {
     ++shown_;
     if (saves_) saveScreenshot();
     glfwSwapBuffers(window_);
-    work(&WindowLoop::obey);
+    work([this] { obey(); });
     if (!title_.empty()) glfwSetWindowTitle(window_, std::exchange(title_, {}).c_str());
     if (std::exchange(closes_, false)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
     return !last;
 }
 
 // Does a part of the frame, and lets the window go on where that takes long.
-void WindowLoop::work(void (WindowLoop::*part)()) {
+void WindowLoop::work(std::function<void()> part) {
     constexpr std::chrono::milliseconds patience(500), pause(100);
-    thread_->begin([this, part] { (this->*part)(); });
+    gpu::endFirstUse();  // of what went before
+    thread_->begin(std::move(part));
     for (auto time = patience; !thread_->waits(time); time = pause) {
         glfwPollEvents();
         const Busy busy = busyWith();
@@ -123,10 +143,10 @@ void WindowLoop::tellWaiting(const Busy& busy) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     if (width < 1 || height < 1) return;
-    presentPicture();
+    presentPicture(width, height);
     interface_->begin(true);
     const bool closes = glfwWindowShouldClose(window_) == GLFW_TRUE || signalThatAsked() != 0;
-    drawWaiting(busy.what + (closes ? "; then the window closes" : ""), busy.share);
+    drawWaiting(busy.what + (closes ? "; closing waits for that" : ""), busy.share);
     interface_->end();
     glfwSwapBuffers(window_);
 }
@@ -150,7 +170,7 @@ void WindowLoop::takePicture() {
     sourceHeight_ = drawn_.height;
 }
 
-void WindowLoop::presentPicture() {
+void WindowLoop::presentPicture(int width, int height) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glDisable(GL_SCISSOR_TEST);
     if (sourceWidth_ == 0) {
@@ -158,12 +178,12 @@ void WindowLoop::presentPicture() {
         glClear(GL_COLOR_BUFFER_BIT);
     } else {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source_);
-        const bool same = sourceWidth_ == width_ && sourceHeight_ == height_;
-        glBlitFramebuffer(0, 0, sourceWidth_, sourceHeight_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+        const bool same = sourceWidth_ == width && sourceHeight_ == height;
+        glBlitFramebuffer(0, 0, sourceWidth_, sourceHeight_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                           same ? GL_NEAREST : GL_LINEAR);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     }
-    glViewport(0, 0, width_, height_);
+    glViewport(0, 0, width, height);
 }
 
 void WindowLoop::saveScreenshot() const {

@@ -8,6 +8,7 @@
 // what it waits for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,9 +38,10 @@ class WindowLoop {
     virtual void drawPicture() = 0;    // and show() it
     virtual void drawInterface() = 0;  // over the picture; what the user did is in keys() and ImGui
     virtual void obey() = 0;           // does what was asked for, after the frame is on the screen
+    virtual void leave() {}            // after the last frame
     // Whether nothing moves: then frames come when the user does something, and now and then.
     virtual bool rests() { return false; }
-    // Frames a second of what moves: more are not shown, however fast the screen is. 0: nothing moves.
+    // Steps a second of what moves, which is no faster however fast the screen is; 0: nothing moves.
     virtual double moves() { return 0; }
 
     // Whether the window may close, which the user asks for. False: it stays, and something is to be said
@@ -52,10 +54,13 @@ class WindowLoop {
     void show(const gpu::Texture& picture);  // from this frame on, until another one is shown
     Input& keys() { return interface_->input(); }
     double pixelsPerPoint() const { return interface_->pixelsPerPoint(); }
-    int width() const { return width_; }                   // pixels
-    int height() const { return height_; }                 // pixels
-    int shown() const { return shown_; }                   // frames
-    double lastSeconds() const { return lastSeconds_; }    // wall clock, of the last frame
+    int width() const { return width_; }    // pixels
+    int height() const { return height_; }  // pixels
+    int shown() const { return shown_; }    // frames
+    double lastSeconds() const {
+        return lastSeconds_;
+    }              // wall clock, of the last frame without waits for its time
+    bool isDue();  // the next step of what moves; the one after it is later
     double frameSeconds() const { return frameSeconds_; }  // smoothed; 0: not known yet
     bool savesScreenshot() const { return saves_; }        // of this frame
     static double wallTime();                              // s
@@ -69,10 +74,10 @@ class WindowLoop {
     bool ends();
     void awaitFrame();
     bool showFrame();
-    void work(void (WindowLoop::*part)());
+    void work(std::function<void()> part);
     void tellWaiting(const Busy& busy);
     void takePicture();
-    void presentPicture();
+    void presentPicture(int width, int height);
     void saveScreenshot() const;
 
     struct Picture {
@@ -86,6 +91,7 @@ class WindowLoop {
     GLFWwindow* window_;
     std::optional<Interface> interface_;
     ContextThread* thread_ = nullptr;         // while the loop goes on
+    GLsync presented_ = nullptr;              // after which another picture may be drawn
     Picture drawn_;                           // by the thread of the scene
     unsigned source_ = 0;                     // the window's framebuffer that holds the picture
     int sourceWidth_ = 0, sourceHeight_ = 0;  // pixels; 0: there is no picture yet
@@ -94,7 +100,7 @@ class WindowLoop {
     int width_ = 0, height_ = 0, shown_ = 0;
     bool saves_ = false;
     double lastSeconds_ = 0, frameSeconds_ = 0;
-    double next_ = 0;  // s, of wallTime(): when the next frame is due
+    double next_ = 0, waited_ = 0;  // s: when the next step is due, by wallTime(); before the last frame
 };
 
 }  // namespace shoal::window

@@ -79,6 +79,20 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     CHECK(readFile(scratch.path("still-002.png")) == "mine");
 }
 
+TEST_CASE("a video that is recorded when the window closes is whole", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string scene = scratch.write("still.scene.json", still);
+    scratch.write("sail.json", sail);
+    const Outcome outcome = inWindow({"run", scene, "--context", "window", "--size", "320x240"},
+                                     "key v; settle; key Escape\n", {.folder = scratch.path("")});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.messages().empty());
+    CHECK_THAT(outcome.out,
+               Catch::Contains("recorded: still-001.mp4, ") || Catch::Contains("recorded: still-001, "));
+}
+
 TEST_CASE("a picture that is saved is full while the rate is kept, and so is the window's once it rests",
           "[.window]") {
     if (!hasXdotool()) return;

@@ -80,11 +80,11 @@ class EditorWindow : public WindowLoop {
         pointer_.work(view());
         drawMolecule();
         press(action);
-        act(action);
+        action_ = action;
     }
 
     void advance() {
-        if (!stage_.ready() || !stage_.playing) return;
+        if (!stage_.ready() || !isDue()) return;
         const std::string wrong = stage_.advance();
         troubles.end("run");
         if (!wrong.empty()) tell("run", wrong);
@@ -385,6 +385,7 @@ class EditorWindow : public WindowLoop {
 
     // A few times a second: what is not saved is kept, and the file is looked at.
     void obey() override {
+        act(std::exchange(action_, EditorAction::none));
         const auto time = std::chrono::steady_clock::now();
         if (time - watched_ < std::chrono::milliseconds(500)) return;
         watched_ = time;
@@ -403,6 +404,7 @@ class EditorWindow : public WindowLoop {
 
     EditorStage stage_;
     Editor editor_;
+    EditorAction action_ = EditorAction::none;  // that was asked for in this frame
     StageSettings shownStage_;
     OrbitCamera camera_;
     EditorPointer pointer_{editor_, stage_, camera_, keys()};

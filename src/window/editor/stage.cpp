@@ -106,7 +106,7 @@ void EditorStage::show(const Molecule& molecule, const StageSettings& settings) 
     Plan plan = compile(scene, {.liveSprings = true});
     const bool same = simulation_ && sameProgram(plan, simulation_->plan());
     const bool looks = renderer_ && sameLooks(molecule, drawn_) && !other;
-    std::unique_ptr<Renderer> renderer;  // before anything changes, since it may fail
+    std::unique_ptr<Renderer> renderer;  // before another scene is shown, since it may fail
     if (!looks) {
         RenderOptions options;
         options.width = renderer_ ? renderer_->width() : 64;
