@@ -172,7 +172,7 @@ void StartedShoal::send(int signal, bool toAll) {
 }
 
 std::string withoutWaits(const std::string& err) {
-    return std::regex_replace(err, std::regex("shoal: compiling \"[^\n]*\n"), "");
+    return std::regex_replace(err, std::regex("shoal: (compiling|baking|placing|reading) [^\n]*\n"), "");
 }
 
 Outcome StartedShoal::finish() {
