@@ -22,7 +22,7 @@ struct Outcome {
     JsonValue json() const;  // standard output, read strictly
 };
 
-// Leaves the lines out that tell of a driver that compiles, as a loaded machine is told.
+// Leaves out the lines that tell what takes long on a slow machine.
 std::string withoutWaits(const std::string& err);
 
 struct Surroundings {
