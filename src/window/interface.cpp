@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window/notices.h"
+
 namespace shoal::window {
 
 // Points: the size at which the built-in font was drawn, and the em square of others.
@@ -101,11 +103,12 @@ float points(float count) {
     return std::round(count * unitsPerPoint);
 }
 
-void Interface::begin(bool waits) {
+void Interface::begin() {
+    begun_ = true;
     const Density current = density();
     if (!(current == made_)) makeFont(current);
     const bool chooses = ImGui::GetIO().NavVisible || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    waits ? input_->wait() : input_->next(chooses);
+    input_->next(chooses);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     input_->settle();
@@ -115,6 +118,50 @@ void Interface::begin(bool waits) {
 void Interface::end() {
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+// A frame without the panels would end what is typed, dragged or chosen in them.
+void Interface::wait(const std::string& words, double share) {
+    input_->wait();
+    ImDrawData* panels = ImGui::GetDrawData();
+    if (!begun_ || panels == nullptr || IMGUI_VERSION_NUM >= 19200) {
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+        drawWaiting(words, share);
+        return end();
+    }
+    ImGui_ImplOpenGL3_RenderDrawData(panels);
+    ImDrawList list(ImGui::GetDrawListSharedData());
+    list._ResetForNewFrame();
+#if IMGUI_VERSION_NUM < 19200
+    list.PushTextureID(ImGui::GetIO().Fonts->TexID);
+#endif
+    list.PushClipRectFullScreen();
+    const ImVec2 middle(panels->DisplaySize.x / 2, panels->DisplaySize.y / 2);
+    const float half = std::min(points(230), middle.x - points(12)), edge = points(12), line = points(18);
+    const ImVec2 low(middle.x - half, middle.y - line - edge), high(middle.x + half, middle.y + line + edge);
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg), points(6));
+    list.AddText(ImVec2(low.x + edge, low.y + edge), ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
+    const ImVec2 bar(low.x + edge, high.y - edge - points(8));
+    const float reach = 2 * (half - edge), bottom = high.y - edge;
+    if (share > 0) {
+        list.AddRectFilled(bar, ImVec2(bar.x + reach, bottom), ImGui::GetColorU32(ImGuiCol_FrameBg));
+        list.AddRectFilled(bar, ImVec2(bar.x + float(share) * reach, bottom),
+                           ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    }
+    ImDrawData data = *panels;
+    ImDrawList* lists[] = {&list};
+#if IMGUI_VERSION_NUM < 18980
+    data.CmdLists = lists;
+#else
+    data.CmdLists.clear();
+    data.CmdLists.push_back(lists[0]);
+#endif
+    data.CmdListsCount = 1;
+    data.TotalVtxCount = list.VtxBuffer.Size;
+    data.TotalIdxCount = list.IdxBuffer.Size;
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
 }
 
 }  // namespace shoal::window

@@ -84,9 +84,11 @@ class Interface {
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    // Of a frame; what the user does in it is in input(). `waits`: this frame takes nothing of that.
-    void begin(bool waits = false);
-    void end();  // draws the panels over what is there
+    void begin();  // of a frame; what the user does in it is in input()
+    void end();    // draws the panels over what is there
+    // Instead of a frame, while the program is busy: draws the panels as they were, and says what is waited
+    // for (notices.h). Nothing that the user does or holds is taken or lost.
+    void wait(const std::string& words, double share);
     Input& input() { return *input_; }
     double pixelsPerPoint() const { return double(made_.unitsPerPoint * made_.pixelsPerUnit); }
 
@@ -103,6 +105,7 @@ class Interface {
     std::unique_ptr<Input> input_;
     std::optional<double> scale_;
     std::optional<FontFile> outlines_;  // nothing: the built-in font
+    bool begun_ = false;                // a frame
     Density made_;                      // what font and style are made for
 };
 

@@ -144,10 +144,8 @@ void WindowLoop::tellWaiting(const Busy& busy) {
     glfwGetFramebufferSize(window_, &width, &height);
     if (width < 1 || height < 1) return;
     presentPicture(width, height);
-    interface_->begin(true);
     const bool closes = glfwWindowShouldClose(window_) == GLFW_TRUE || signalThatAsked() != 0;
-    drawWaiting(busy.what + (closes ? "; closing waits for that" : ""), busy.share);
-    interface_->end();
+    interface_->wait(busy.what + (closes ? "; closing waits for that" : ""), busy.share);
     glfwSwapBuffers(window_);
 }
 
