@@ -38,49 +38,48 @@ struct Surface {
 #endif
 
 uniform sampler2DShadow shadowMap;
-uniform mat4 toShadow;      // place -> texture and depth, both in [0, 1]
+uniform mat4 toShadow;       // place -> texel and depth
 uniform vec2 shadowOffsets;  // m, along the normal and towards the sun
-uniform sampler2DShadow wideShadowMap;  // of what stands still, where the other map ends
-uniform mat4 toWideShadow;
+// A second map, of what stands still, where the first ends, which begins at texel 0 and has `nearTexels` a side.
+uniform float nearTexels;
+uniform vec3 wideShadowScale, wideShadowStart;  // from texel and depth in the first map to those in the second
 uniform vec2 wideShadowOffsets;
+uniform vec4 wideBounds;  // texels between which places are looked up; beyond its edge all is lit
 
 // Share of the sun that is seen: the mean of 3 x 3 bilinear comparisons a texel apart, which are 16 texels.
-float unshaded(sampler2DShadow map, mat4 toMap, vec2 offsets, vec3 place, vec3 normal)
+float sunVisibility(vec3 place, vec3 normal)
 {
+    if (!SHADOWS) return 1.0;
+    vec3 spot = (toShadow * vec4(place, 1.0)).xyz;
+    bool wide = WIDE_SHADOWS && max(abs(spot.x - 0.5 * nearTexels), abs(spot.y - 0.5 * nearTexels)) > 0.49 * nearTexels;
+    vec2 offsets = wide ? wideShadowOffsets : shadowOffsets;
     // A surface seen at a grazing angle spans more depth within one texel: shift it more.
     float facing = dot(normal, sunDirection);
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
-    vec3 shifted = place + normal * (sign(facing) * offsets.x * (0.4 + slope)) + sunDirection * offsets.y;
-    vec3 uvz = (toMap * vec4(shifted, 1.0)).xyz;
-    uvz.z = min(uvz.z, 1.0);  // below the map's far end: shaded by whatever the map holds
-    vec2 texel = 1.0 / vec2(textureSize(map, 0));
+    vec3 shift = normal * (sign(facing) * offsets.x * (0.4 + slope)) + sunDirection * offsets.y;
+    spot += mat3(toShadow) * shift;
+    if (wide) {
+        spot = spot * wideShadowScale + wideShadowStart;
+        spot.xy = clamp(spot.xy, wideBounds.xy, wideBounds.zw);
+    }
+    spot.z = min(spot.z, 1.0);  // below the map's far end: shaded by whatever the map holds
+    vec2 texel = 1.0 / vec2(textureSize(shadowMap, 0));
     float lit = 0.0;
 #ifdef GATHERS
-    vec2 share = fract(uvz.xy / texel - 0.5);
-    vec2 corner = uvz.xy - (share - 0.5) * texel;  // between four texels, the middle ones of 16
+    vec2 share = fract(spot.xy - 0.5);
+    vec2 corner = spot.xy - (share - 0.5);  // between four texels, the middle ones of 16
     for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1);
         vec2 outer = mix(1.0 - share, share, vec2(side));  // of the texels at the rim
         vec2 low = mix(outer, vec2(1.0), vec2(side));
         vec2 high = mix(vec2(1.0), outer, vec2(side));
-        vec4 seen = textureGather(map, corner + texel * vec2(2 * side - 1), uvz.z);
+        vec4 seen = textureGather(shadowMap, texel * (corner + vec2(2 * side - 1)), spot.z);
         lit += low.y * (low.x * seen.w + high.x * seen.z) + high.y * (low.x * seen.x + high.x * seen.y);
     }
 #else
-    for (int i = 0; i < 9; ++i) lit += texture(map, vec3(uvz.xy + texel * vec2(i % 3 - 1, i / 3 - 1), uvz.z));
+    for (int i = 0; i < 9; ++i) lit += texture(shadowMap, vec3(texel * (spot.xy + vec2(i % 3 - 1, i / 3 - 1)), spot.z));
 #endif
     return lit / 9.0;
-}
-
-float sunVisibility(vec3 place, vec3 normal)
-{
-    if (!SHADOWS) return 1.0;
-    if (WIDE_SHADOWS) {
-        vec2 fromMiddle = abs((toShadow * vec4(place, 1.0)).xy - 0.5);
-        if (max(fromMiddle.x, fromMiddle.y) > 0.49)
-            return unshaded(wideShadowMap, toWideShadow, wideShadowOffsets, place, normal);
-    }
-    return unshaded(shadowMap, toShadow, shadowOffsets, place, normal);
 }
 
 // Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside,

@@ -1,4 +1,5 @@
-// Set by C++: TEXTURED, true where a molecule is cut out of an image by its alpha; SKIN_WEIGHTS, 0 where it has no skin.
+// Set by C++: TEXTURED, true where a molecule is cut out of an image by its alpha; SKIN_WEIGHTS, 0 where it has no skin;
+// METALLIC, true where it is a mirror.
 
 #include "render/alpha_cut.glsl"
 #include "render/blend.glsl"
@@ -38,6 +39,6 @@ void main()
     s.translucency = translucency;
     // Green tissue lets yellow pass.
     s.throughColor = albedo * vec3(1.7, 1.45, 0.5);
-    s.metallic = metallic;
+    if (METALLIC) s.metallic = metallic;
     fragment = blended(squeeze(withHaze(shade(s), place)), albedo, covered);
 }

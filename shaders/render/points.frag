@@ -1,4 +1,4 @@
-// A sprite shaded as the sphere that it stands for.
+// A sprite shaded as the sphere that it stands for. Set by C++: METALLIC, true where it is a mirror.
 
 #include "render/blend.glsl"
 #include "render/light.glsl"
@@ -27,6 +27,6 @@ void main()
     n = normalize(mix(n, sunDirection, 0.6 * translucency));
 
     Surface s = surfaceOf(middle + n * (0.5 * pointSize), n, color, roughness);
-    s.metallic = metallic;
+    if (METALLIC) s.metallic = metallic;
     fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }

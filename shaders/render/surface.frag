@@ -1,6 +1,7 @@
 // Host models, terrain and colliders. Set by C++, true or false: PLANE, which has no end and fades into the haze instead;
-// COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h); CUT, out of the colour
-// image by its alpha; REFRACTS, of what is blended.
+// GRID, of lines every metre on a plane; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material
+// (geometry/mesh.h); METALLIC, where it is a mirror; GRAINY, and STONY, of stone; CUT, out of the colour image by its alpha; REFRACTS, of what is
+// blended.
 
 #include "render/alpha_cut.glsl"
 #include "render/glass.glsl"
@@ -17,8 +18,7 @@ uniform vec4 meshColor;  // a opacity
 uniform vec3 emissive;
 uniform float roughness;
 uniform float metallic;
-uniform float detail;  // strength of the procedural grain, 0 for none
-uniform bool stony;    // whether the grain is stone's
+uniform float detail;  // strength of the grain
 uniform mat3 meshTurn;
 uniform sampler2D normalImage;
 uniform float normalScale;
@@ -29,7 +29,6 @@ uniform float planeRadius;  // m, where the plane has faded away
 uniform vec3 planeAlong;    // two unit directions within the plane
 uniform vec3 planeAcross;
 uniform vec2 planeOffset;   // of the foot of the eye on the grid, m
-uniform bool grid;          // lines every metre
 
 out vec4 fragment;
 
@@ -76,11 +75,11 @@ void main()
     float hollow = 1.0;
     vec3 along = n;
 
-    if (detail > 0.0) {
+    if (GRAINY) {
         // Nearly the long side of a pixel's footprint: more of the short one would leave stripes.
         float across = length(dFdx(local)), down = length(dFdy(local)), longer = max(across, down);
         float footprint = longer * sqrt(sqrt(sqrt(min(across, down) / max(longer, 1e-12))));
-        Grain grain = stony ? stoneGrain(local, footprint)
+        Grain grain = STONY ? stoneGrain(local, footprint)
                             : earthGrain(local, smoothstep(0.55, 0.8, n.y), footprint);
         albedo *= max(1.0 + detail * grain.tone, 0.25) * mix(vec3(1.0), grain.tint, detail);
         // The normal of a surface that is raised along n, whose slope is the relief's within the surface.
@@ -90,7 +89,7 @@ void main()
     }
     float faded = 0.0;
     if (PLANE) {
-        if (grid) albedo *= gridLines(vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset);
+        if (GRID) albedo *= gridLines(vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset);
         faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
     }
 
@@ -107,7 +106,7 @@ void main()
     if (CUT && covered <= 0.0) discard;  // after all derivatives
 
     Surface s = surfaceOf(place, n, albedo, rough);
-    s.metallic = metal;
+    if (METALLIC) s.metallic = metal;
     s.normal = along;
     s.openness *= hollow;
     vec3 radiance = shade(s) + sent;

@@ -37,7 +37,8 @@ class Framebuffer {
 
     // Copies the first colour, resolving samples. Sizes must be equal.
     void blitTo(const Framebuffer& other) const { blit(other, GL_COLOR_BUFFER_BIT); }
-    // Copies the depth, one sample of each pixel. Sizes and formats must be equal.
+    // Copies the depth, one sample of each pixel, into the lower left of one as large or larger. Formats must
+    // be equal.
     void blitDepthTo(const Framebuffer& other) const { blit(other, GL_DEPTH_BUFFER_BIT); }
     // Copies the first colour into a framebuffer that is not ours. LINEAR where the sizes differ and there is
     // 1 sample.

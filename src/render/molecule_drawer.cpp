@@ -123,6 +123,7 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     litOptions_.fragment = points_ ? "render/points.frag" : "render/molecule.frag";
     for (const std::string& define : lighting.defines())
         litOptions_.defines.push_back(define);
+    litOptions_.defines.push_back(gpu::constant("METALLIC", material_.metallic > 0));
     litOptions_.defines.push_back(blendDefine(material_.blend));
     litOptions_.label = name_ + " (picture)";
     depth.label = name_ + " (shadow)";

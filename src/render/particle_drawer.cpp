@@ -172,8 +172,8 @@ void ParticleDrawer::setView(const gpu::Program& program, const glm::mat3& viewT
 
 const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double time) {
     const gpu::Program& program = beginDepth(state, shadow);
-    setView(program, shadow.toScene(), glm::vec4(shadow.toScene()[2], 0),
-            glm::vec2(float(shadow.depth().width())), shadow.pixelsPerMeter(), time);
+    setView(program, shadow.toScene(), glm::vec4(shadow.toScene()[2], 0), glm::vec2(float(shadow.size())),
+            shadow.pixelsPerMeter(), time);
     program.set("leastCover", 0.5f);
     setType(program);
     return program;

@@ -13,11 +13,11 @@
 
 namespace shoal {
 
-static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Scene& scene, const Box& box,
-                                                const RenderOptions& options) {
+static std::unique_ptr<Shadows> makeShadows(gpu::Context& context, const Scene& scene,
+                                            const SceneBounds& bounds, const RenderOptions& options) {
     if (!scene.light.shadows || scene.light.intensity <= 0) return nullptr;
-    const int size = std::min(options.shadowSize, context.info().maxTextureSize);
-    return std::make_unique<ShadowMap>(context, size, box, towardsSun(scene.light));
+    const int most = std::min(options.shadowSize, context.info().maxTextureSize / 2);
+    return std::make_unique<Shadows>(context, most, bounds.casters, bounds.models, towardsSun(scene.light));
 }
 
 static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const Scene& scene) {
@@ -47,13 +47,6 @@ static double pixelsPerMeterAt(const Camera& camera, int height) {
     return height / (2 * std::tan(camera.fieldOfView / 2) * distance);
 }
 
-// Models may reach beyond what moves.
-static std::unique_ptr<ShadowMap> makeWideMap(gpu::Context& context, const Scene& scene, const Box& models,
-                                              const RenderOptions& options, const ShadowMap* near) {
-    if (!near || near->covers(models)) return nullptr;
-    return makeShadowMap(context, scene, models, options);
-}
-
 Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, const RenderOptions& options)
     : Renderer(context, scene, plan, options, boundsOf(scene, plan)) {}
 
@@ -61,12 +54,11 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
                    const SceneBounds& bounds)
     : context_(&context),
       options_(options),
-      shadow_(makeShadowMap(context, scene, bounds.casters, options)),
-      wideShadow_(makeWideMap(context, scene, bounds.models, options, shadow_.get())),
+      shadows_(makeShadows(context, scene, bounds, options)),
       water_(makeWater(context, scene)),
-      lighting_(context.info(), scene, bounds.crown, {shadow_.get(), wideShadow_.get()}, water_.get(),
+      lighting_(context.info(), scene, bounds.crown, shadows_.get(), water_.get(),
                 DrawnGroups::blends(scene, plan) || SurfaceDrawer::blends(scene), options.quality.samples),
-      surfaces_(context, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
+      surfaces_(context, scene, lighting_, shadows_ != nullptr, options.grid || scene.models.empty()),
       groups_(context, scene, plan, lighting_, options.slabs, pixelsPerMeterAt(scene.camera, options.height)),
       beams_(context, water_.get()),
       occlusion_(context, scene),
@@ -87,22 +79,18 @@ Renderer::Renderer(gpu::Context& context, const Scene& scene, const Plan& plan, 
                                          "linear picture"});
     resize(options.width, options.height);
     if (scene.sky.clouds > 0) drawClouds(scene);
-    if (shadow_ && surfaces_.castsStill()) {
-        stillShadow_ = makeShadowMap(context, scene, bounds.casters, options);
-        drawStillShadows(*stillShadow_);
-    }
-    if (wideShadow_) drawStillShadows(*wideShadow_);
+    drawStillShadows();
 }
 
 void Renderer::changeColliders(const std::vector<Collider>& colliders) {
     surfaces_.changeColliders(*context_, colliders, lighting_);
-    if (stillShadow_) drawStillShadows(*stillShadow_);
+    drawStillShadows();
 }
 
-void Renderer::drawStillShadows(ShadowMap& map) const {
-    map.begin();
-    surfaces_.drawShadows(map, {});
-    map.end();
+void Renderer::drawStillShadows() {
+    if (!shadows_) return;
+    shadows_->drawStill(surfaces_.castsStill(),
+                        [&](const ShadowMap& map) { surfaces_.drawShadows(map, {}); });
 }
 
 void Renderer::resize(int width, int height) {
@@ -113,9 +101,7 @@ void Renderer::setQuality(const Quality& quality) {
     if (quality == options_.quality) return;
     const Quality before = std::exchange(options_.quality, quality);
     if (quality.samples != before.samples) makeTargets(width(), height());
-    if (!shadow_ || quality.shadows) return;
-    shadow_->begin();  // nothing is in the shade
-    shadow_->end();
+    if (shadows_ && !quality.shadows) shadows_->clear();
 }
 
 void Renderer::makeTargets(int width, int height) {
@@ -152,7 +138,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("order");
         groups_.order(state, eye);
     }
-    if (shadow_ && options_.quality.shadows) drawShadows(state, view.time);
+    if (shadows_ && options_.quality.shadows) drawShadows(state, view.time);
     if (water_) {
         const auto timer = timers_.time("caustics");
         water_->draw(view.time);
@@ -202,11 +188,10 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
 
 void Renderer::drawShadows(const StateView& state, double time) {
     const auto timer = timers_.time("shadows");
-    shadow_->begin(stillShadow_.get());
-    if (!stillShadow_) surfaces_.drawShadows(*shadow_, {});
-    surfaces_.drawShadows(*shadow_, time);
-    groups_.drawShadows(state, *shadow_, time);
-    shadow_->end();
+    shadows_->drawMoving([&](const ShadowMap& map) {
+        surfaces_.drawShadows(map, time);
+        groups_.drawShadows(state, map, time);
+    });
 }
 
 void Renderer::drawClouds(const Scene& scene) {

@@ -104,7 +104,7 @@ class Renderer {
     // Another colour, roughness, translucency, opacity or growth for a group of molecules, likewise.
     bool changeLooks(size_t group, const Group& looks) { return groups_.changeLooks(group, looks); }
 
-    // Draws these instead of the scene's. What stands still keeps its shadow on far ground.
+    // Draws these instead of the scene's.
     void changeColliders(const std::vector<Collider>& colliders);
 
     gpu::PassTimers& timers() { return timers_; }
@@ -119,7 +119,7 @@ class Renderer {
              const SceneBounds& bounds);
     void makeTargets(int width, int height);
     void drawShadows(const StateView& state, double time);
-    void drawStillShadows(ShadowMap& map) const;
+    void drawStillShadows();
     void drawClouds(const Scene& scene);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
@@ -128,10 +128,7 @@ class Renderer {
 
     gpu::Context* context_;
     RenderOptions options_;
-    std::unique_ptr<ShadowMap> shadow_;      // null: the sun casts none
-    std::unique_ptr<ShadowMap> wideShadow_;  // drawn once; null: not needed
-    std::unique_ptr<ShadowMap>
-        stillShadow_;  // the first, of what stands still alone: drawn once; null: nothing does
+    std::unique_ptr<Shadows> shadows_;   // null: the sun casts none
     std::unique_ptr<WaterLight> water_;  // null: all is in the air
     Lighting lighting_;
     SurfaceDrawer surfaces_;

@@ -127,8 +127,8 @@ SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Mode
 }
 
 SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
-                             const ShadowMap* shadow, bool grid)
-    : shadows_(shadow != nullptr), grid_(grid) {
+                             bool shadows, bool grid)
+    : shadows_(shadows), grid_(grid) {
     for (const Model& model : scene.models) {
         if (!model.draw || model.mesh.triangles.empty()) continue;
         Drawn drawn = drawnModel(context, model);
@@ -214,7 +214,9 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
                 "render/surface.vert", "render/surface.frag", lighting.defines(), {}, "surfaces"};
             lit.defines.insert(
                 lit.defines.end(),
-                {gpu::constant("PLANE", surface.plane.has_value()),
+                {gpu::constant("PLANE", surface.plane.has_value()), gpu::constant("GRID", grid_),
+                 gpu::constant("METALLIC", material.metallic > 0),
+                 gpu::constant("GRAINY", surface.detail > 0), gpu::constant("STONY", surface.stony),
                  gpu::constant("COLOR_IMAGE", material.colorImage >= 0),
                  gpu::constant("NORMAL_IMAGE", material.normalImage >= 0),
                  gpu::constant("ROUGHNESS_IMAGE", material.roughnessImage >= 0),
@@ -222,10 +224,6 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighti
                  gpu::constant("CUT", cutOut(material)), gpu::constant("REFRACTS", refracting(material))});
             if (surface.plane) lit.label = "planes";
             look.lit = &programs_.get(context, lit);
-            if (surface.plane) {
-                look.lit->use();
-                look.lit->set("grid", int(grid_));
-            }
             if (!shadows_ || !surface.casts) continue;
             look.depth = &programs_.get(context, {"render/surface.vert",
                                                   "render/surface_shadow.frag",
@@ -302,7 +300,6 @@ void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& 
     program.set("roughness", float(material.roughness));
     program.set("metallic", float(material.metallic));
     program.set("detail", surface.detail);
-    program.set("stony", int(surface.stony));
     const auto image = [&](const char* name, int number) {
         if (number >= 0) program.texture(name, surface.images[size_t(number)]);
     };

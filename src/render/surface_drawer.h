@@ -18,9 +18,9 @@ struct SurfaceMesh;
 
 class SurfaceDrawer {
   public:
-    // `grid`: planes show a metre grid.
-    SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting,
-                  const ShadowMap* shadow, bool grid);
+    // `shadows`: the sun casts some; `grid`: planes show a metre grid.
+    SurfaceDrawer(gpu::Context& context, const Scene& scene, const Lighting& lighting, bool shadows,
+                  bool grid);
 
     // Draws these instead of the scene's.
     void changeColliders(gpu::Context& context, const std::vector<Collider>& colliders,

@@ -156,6 +156,40 @@ TEST_CASE("shadows go with what moves, and those of what stands still with what 
     CHECK(shadeAt(0, moving));
 }
 
+TEST_CASE("what stands still casts shadows far from what moves, as far as its own map goes", "[render]") {
+    Scene scene = sceneOfSquares({{0, 0.5, -3}});
+    scene.light.direction = {0, -1, 0};
+    scene.camera.eye = {0, 4, 4};
+    scene.camera.target = {0, 0, 0};  // its own map ends 57 m on
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
+    Model roof;
+    roof.mesh.positions = {{-100, 1, -1}, {100, 1, -1}, {100, 1, 1}, {-100, 1, 1}};
+    roof.mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    roof.mesh.parts = {{"roof", "paint", 0, 2, 0}};
+    roof.mesh.materials.emplace_back();
+    completeMesh(roof.mesh);
+    scene.models.push_back(roof);
+    const Plan plan = compile(scene);
+    Renderer renderer(testContext(), scene, plan, {.width = 160, .height = 120});
+    const Simulation simulation(testContext(), plan, {.path = testPath()});
+    // in the shade of the roof, whose middle lies above z = 0, or not
+    const auto brightnessAt = [&](double x, double z) {
+        Camera below = scene.camera;
+        below.eye = {x, 0.6, z + 4};
+        below.target = {x, 0, z};
+        renderer.draw(simulation.state(), View::fromCamera(below));
+        return brightness(pixel(renderer.capture(), 80, 60));
+    };
+    for (const double x : {0.0, 2.0, 20.0, 50.0, -50.0}) {
+        CAPTURE(x);
+        CHECK(4 * brightnessAt(x, 0) < 3 * brightnessAt(x, 6));
+    }
+    for (const double x : {75.0, -75.0, 90.0}) {
+        CAPTURE(x);
+        CHECK(brightnessAt(x, 0) == Approx(brightnessAt(x, 6)).epsilon(0.1));
+    }
+}
+
 TEST_CASE("places near others see less of the sky", "[render][occlusion]") {
     Scene scene = sceneOfSquares({{0, 0, -1000}});
     scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});

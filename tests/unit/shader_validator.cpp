@@ -122,7 +122,8 @@ void Validator::addFragments(const Plan& plan, KernelOptions options) {
 
 // All that gpu::flag says of shaders of pictures.
 static constexpr std::array picturesFlags = {
-    "PLANE",          "COLOR_IMAGE",  "NORMAL_IMAGE", "ROUGHNESS_IMAGE",
+    "PLANE",          "GRID",         "METALLIC",     "GRAINY",
+    "STONY",          "COLOR_IMAGE",  "NORMAL_IMAGE", "ROUGHNESS_IMAGE",
     "EMISSIVE_IMAGE", "CUT",          "REFRACTS",     "HOLES",
     "BLENDED",        "SHADOWS",      "WIDE_SHADOWS", "LINEAR_LIGHT",
     "CLOUDS",         "BEAMS",        "OCCLUSION",    "CLEAR",

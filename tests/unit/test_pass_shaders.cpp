@@ -35,8 +35,8 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
             validator.addPicture("render/molecule.frag", set);
         }
         for (const Defines& look : {Defines{},
-                                    {"PLANE"},
-                                    {"COLOR_IMAGE", "CUT"},
+                                    {"PLANE", "GRID", "GRAINY"},
+                                    {"COLOR_IMAGE", "CUT", "GRAINY", "STONY"},
                                     {"NORMAL_IMAGE", "ROUGHNESS_IMAGE", "EMISSIVE_IMAGE"}}) {
             Defines set = lit;
             set.insert(set.end(), look.begin(), look.end());
@@ -49,7 +49,7 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     for (const char* file : {"render/molecule.vert", "render/points.vert"})
         validator.addPicture(file, {"TEXTURES", "STATE_WIDTH 1024", "COLOR_BY"});
     for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
-        validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend", "SKIN_WEIGHTS 0"});
+        validator.addPicture(file, {"SHADOWS", "WATER", "METALLIC", "BLEND noneBlend", "SKIN_WEIGHTS 0"});
     for (const Defines& scaled : combinations({"SCALED"})) {
         Defines set = scaled;
         set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024"});
