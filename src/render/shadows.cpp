@@ -59,8 +59,7 @@ bool ShadowMap::covers(const Box& box) const {
 glm::dmat4 ShadowMap::toTexels(const Origin& eye, const glm::ivec2& first) const {
     const glm::dmat4 fromEye = glm::translate(glm::dmat4(1), eye.exact - origin_.exact);
     const glm::dvec3 half(0.5 * size_, 0.5 * size_, 0.5);
-    const glm::dmat4 toTexels =
-        glm::scale(glm::translate(glm::dmat4(1), half + glm::dvec3(first, 0)), half);
+    const glm::dmat4 toTexels = glm::scale(glm::translate(glm::dmat4(1), half + glm::dvec3(first, 0)), half);
     return toTexels * glm::dmat4(toClip_) * fromEye;
 }
 
@@ -150,7 +149,8 @@ void Shadows::apply(const gpu::Program& program, const Eye& eye) const {
     program.set("wideShadowScale", glm::vec3(between[0].x, between[1].y, between[2].z));
     program.set("wideShadowStart", glm::vec3(between[3]));
     program.set("wideShadowOffsets", wide_->offsets());
-    const glm::vec2 low = glm::vec2(firstOfWide_) - 1.5f, high = glm::vec2(firstOfWide_ + wide_->size()) + 1.5f;
+    const glm::vec2 low = glm::vec2(firstOfWide_) - 1.5f,
+                    high = glm::vec2(firstOfWide_ + wide_->size()) + 1.5f;
     program.set("wideBounds", glm::vec4(low, high));
 }
 

@@ -1,4 +1,5 @@
-// What the sun casts: depth as it sees the scene, in maps that shaders compare with (shaders/render/light.glsl).
+// What the sun casts: depth as it sees the scene, in maps that shaders compare with
+// (shaders/render/light.glsl).
 #pragma once
 
 #include <functional>
@@ -27,7 +28,8 @@ class ShadowMap {
     const glm::mat3& toScene() const { return toScene_; }  // columns: right, up, towards the sun
     float pixelsPerMeter() const { return pixelsPerMeter_; }
 
-    // From places relative to the eye to texels of a texture, in which the map begins at `first`, and to depth in [0, 1].
+    // From places relative to the eye to texels of a texture, in which the map begins at `first`, and to
+    // depth in [0, 1].
     glm::dmat4 toTexels(const Origin& eye, const glm::ivec2& first) const;
     // What lies so far from a caster is not its shadow, m. x: along the normal; y: towards the sun.
     glm::vec2 offsets() const;
@@ -41,11 +43,14 @@ class ShadowMap {
     float blur_ = 0;  // m
 };
 
-// The maps of a scene, beside one another in one texture, so that a pixel reads of the one that it lies in alone.
+// The maps of a scene, beside one another in one texture, so that a pixel reads of the one that it lies in
+// alone.
 class Shadows {
   public:
-    // A map of everything about what moves, and another of what stands still where that one does not cover `models`.
-    Shadows(gpu::Context& context, int most, const Box& casters, const Box& models, const glm::dvec3& towardsSun);
+    // A map of everything about what moves, and another of what stands still where that one does not cover
+    // `models`.
+    Shadows(gpu::Context& context, int most, const Box& casters, const Box& models,
+            const glm::dvec3& towardsSun);
 
     // Draws casters into the map that is bound.
     using Casters = std::function<void(const ShadowMap& map)>;
@@ -60,9 +65,10 @@ class Shadows {
   private:
     gpu::Context* context_;
     ShadowMap near_;
-    std::optional<ShadowMap> wide_;  // of what stands still, where the first ends; none: it does not end in view
-    glm::ivec2 firstOfWide_{0};      // texel
-    gpu::Texture depth_, still_;     // `still_`: of the first map, what stands still alone
+    std::optional<ShadowMap>
+        wide_;                    // of what stands still, where the first ends; none: it does not end in view
+    glm::ivec2 firstOfWide_{0};   // texel
+    gpu::Texture depth_, still_;  // `still_`: of the first map, what stands still alone
     gpu::Framebuffer target_, stillTarget_;
 };
 
