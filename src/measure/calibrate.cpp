@@ -85,7 +85,8 @@ class Search {
             solveReference(*run.few);
     }
 
-    // Where the motion is chaotic or too stiff over the whole time, over a shorter one.
+    // Where the motion of one of a hundred molecules is chaotic or too stiff over the whole time, over a
+    // shorter one.
     void solveReference(MethodRunner& runner) {
         runner.restart();
         const std::vector<Snapshot> starts = runner.snapshots();
@@ -97,15 +98,33 @@ class Search {
             const Settled settled = reference_->solve(
                 0.01 * options_.error,
                 reference_->secondsEach(0.5 * limit_.left(readying), MoleculeSample::referenceSeconds));
+            const bool last = frames_ == least || late(readying);
             if (settled == Settled::yes ||
-                (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error))
-                break;
-            if (frames_ == least || late(readying)) refuseWithoutReference(settled);
+                (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error)) {
+                tell(concat("solving a sample of ", sampleMolecules, " molecules over ",
+                            frames_ / few_.frameRate, " s"));
+                // in half of the time that is left, so that a shorter motion has some
+                const double share =
+                    last || !options_.seconds
+                        ? readying
+                        : 1 - (limit_.left() - 0.5 * limit_.left(readying)) / *options_.seconds;
+                sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_,
+                                                           device_, limit_.part(share));
+                sample_->settle();
+                if (sample_->settled()) return;
+                if (last) refuseUnsettled();
+            } else if (last) {
+                refuseWithoutReference(settled);
+            }
         }
-        tell(concat("solving a sample of ", sampleMolecules, " molecules"));
-        sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_,
-                                                   limit_.part(readying));
-        sample_->settle();
+    }
+
+    [[noreturn]] void refuseUnsettled() const {
+        throw Error(place_, concat("--error ", options_.error, " cannot be claimed: the ends of ",
+                                   sample_->unsettled(), " of ", sample_->molecules(),
+                                   " molecules still change when the step is halved, after ",
+                                   frames_ / few_.frameRate,
+                                   " s of motion that is chaotic, or finer than single floats tell"));
     }
 
     [[noreturn]] void refuseWithoutReference(Settled settled) const {
@@ -180,9 +199,10 @@ class Search {
             candidate.worst = run.sample.worst;
             if (run.sample.holds(options_.error)) return true;
             const int next = std::max(candidate.substeps + 1, int(std::lround(1.3 * candidate.substeps)));
-            candidate.why =
-                concat("does not get there: at ", candidate.substeps, " substeps ", run.sample.above, " of ",
-                       run.sample.measured, " molecules are above, the worst at ", run.sample.worst);
+            candidate.why = concat(
+                "does not get there: at ", candidate.substeps, " substeps ", run.sample.above, " of ",
+                run.sample.molecules, " molecules are above, the worst at ", run.sample.worst,
+                run.sample.unknown > 0 ? concat(", and nothing is known of ", run.sample.unknown) : "");
             if (options_.substeps || tries == mostTries || late() || next > maxSubsteps ||
                 !run.few->refusal({next, 1}).empty() || !canWin(run, next))
                 return false;
@@ -306,7 +326,8 @@ class Search {
         if (late()) out.why += concat("; the search ended after ", *options_.seconds, " s");
         out.duration = frames_ / few_.frameRate;
         if (out.duration < 0.9 * options_.duration)
-            out.why += concat("; over ", out.duration, " s only: over more there is no reference");
+            out.why += concat("; over more than ", out.duration,
+                              " s too many ends are chaotic, or finer than floats tell");
         device_.context->checkErrors("calibrate");
         return out;
     }

@@ -28,13 +28,14 @@ constexpr int sampleMolecules = 300;
 
 // The errors of a method over the sample. An error is relative: accuracy_reference.h.
 struct SampleError {
-    double rms = 0, worst = 0;
-    int measured = 0;  // molecules, to a third of the error wanted or nearer: those of the RMS
-    int compared = 0;  // those, and what could be told to three times that error
-    int untold = 0;    // the others: chaotic, too stiff, or no time was left for their reference
-    int above = 0;     // of those measured: above the error wanted
+    double rms = 0, worst = 0;  // of the molecules whose error is known
+    int molecules = 0;          // all of the sample
+    int above = 0;              // of them, above the error wanted
+    // Of them, not known to be below or above it: chaotic, finer than floats tell, too stiff, or no time was
+    // left for their reference.
+    int unknown = 0;
 
-    // Below the error for 99 of 100 molecules and in the RMS; ten times that for none.
+    // Known to be below the error for 99 of 100 molecules, and in the RMS; ten times that for none.
     bool holds(double error) const;
 };
 
@@ -116,6 +117,9 @@ class MoleculeSample {
     // Finds the method that the others are held against. What it does not settle has the reference, as far as
     // time allows.
     void settle();
+    bool settled() const { return 100 * unsettled() <= int(molecules_.size()); }  // but for one of a hundred
+    int unsettled() const;
+    int molecules() const { return int(molecules_.size()); }
     // "4 by the reference, 296 by leapfrog with 128 substeps"
     std::string how() const;
 
@@ -136,8 +140,7 @@ class MoleculeSample {
     bool settleBy(SolverKind kind);
     std::vector<double> distances(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) const;
     void ask(SampledMolecule& molecule);
-    bool told(const SampledMolecule& molecule) const;
-    bool settled() const;
+    bool settled(const SampledMolecule& molecule) const;
 
     const Scene& scene_;
     double error_;

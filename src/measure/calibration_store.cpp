@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int layoutVersion = 4;
+constexpr int layoutVersion = 5;
 
 // The bytes of all that is added, by their number where that may differ.
 class Content {
@@ -121,11 +121,11 @@ JsonValue asJson(const Calibration& calibration) {
     return object(key("target", calibration.target), key("solver", name(calibration.method.solver)),
                   key("fieldSampling", name(calibration.method.sampling)),
                   key("substeps", calibration.substeps), key("error", calibration.error),
-                  key("worst", calibration.sample.worst), key("measured", calibration.sample.measured),
-                  key("above", calibration.sample.above), key("compared", calibration.sample.compared),
-                  key("untold", calibration.sample.untold), key("how", calibration.how),
-                  key("secondsPerVertexAndSecond", calibration.cost), key("duration", calibration.duration),
-                  key("why", calibration.why), key("seconds", calibration.seconds),
+                  key("worst", calibration.sample.worst), key("molecules", calibration.sample.molecules),
+                  key("above", calibration.sample.above), key("unknown", calibration.sample.unknown),
+                  key("how", calibration.how), key("secondsPerVertexAndSecond", calibration.cost),
+                  key("duration", calibration.duration), key("why", calibration.why),
+                  key("seconds", calibration.seconds),
                   key("candidates", arrayOf(calibration.candidates, asJson)));
 }
 
@@ -143,10 +143,9 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
         reader.need("error", out.error);
         out.sample.rms = out.error;
         reader.need("worst", out.sample.worst);
-        reader.need("measured", out.sample.measured);
+        reader.need("molecules", out.sample.molecules);
         reader.need("above", out.sample.above);
-        reader.need("compared", out.sample.compared);
-        reader.need("untold", out.sample.untold);
+        reader.need("unknown", out.sample.unknown);
         reader.need("how", out.how);
         reader.need("secondsPerVertexAndSecond", out.cost);
         reader.need("duration", out.duration);

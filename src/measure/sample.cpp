@@ -7,16 +7,29 @@ namespace shoal::measure {
 
 namespace {
 
-constexpr double nearEnough = 0.3, roughlyNear = 3;  // of the error wanted: a change when the step is halved
-constexpr double floatNoise = 1e-4;                  // below it two runs in float agree
-constexpr double secondsARun = 6;                    // of all molecules by one method at one step
+constexpr double nearEnough = 0.3;   // of the error wanted: a change when the step is halved
+constexpr double floatNoise = 1e-4;  // below it two runs in float agree
+constexpr double secondsARun = 6;    // of all molecules by one method at one step
+constexpr double stalled = 0.9;      // of the molecules that a step leaves unsettled: its half leaves as many
 constexpr int mostAsked = 6;
 constexpr int mostWorst = 10;  // times the error wanted
+
+// Another method where one does not settle the molecules: one of higher order has less noise in float,
+// because it takes fewer steps, and what is stiff stays to the implicit ones.
+std::vector<SolverKind> settlers() {
+    std::vector<SolverKind> out{SolverKind::leapfrog};
+    for (const Solver& candidate : solvers())
+        if (candidate.rungeKutta() && candidate.order > solver(SolverKind::leapfrog).order)
+            out.push_back(candidate.kind);
+    out.insert(out.end(), {SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd});
+    return out;
+}
 
 }  // namespace
 
 bool SampleError::holds(double error) const {
-    return measured > 0 && rms < error && 100 * above <= measured && worst < mostWorst * error;
+    return molecules > unknown && rms < error && 100 * (above + unknown) <= molecules &&
+           worst < mostWorst * error;
 }
 
 MoleculeSample::MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
@@ -33,22 +46,20 @@ std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
     return out;
 }
 
-bool MoleculeSample::told(const SampledMolecule& molecule) const {
-    return molecule.change <= std::max(roughlyNear * error_, floatNoise);
+bool MoleculeSample::settled(const SampledMolecule& molecule) const {
+    return molecule.change <= nearEnough * error_;
 }
 
-bool MoleculeSample::settled() const {
-    const auto untold = std::count_if(molecules_.begin(), molecules_.end(),
-                                      [&](const SampledMolecule& molecule) { return !told(molecule); });
-    return 100 * untold <= int(molecules_.size());
+int MoleculeSample::unsettled() const {
+    return int(std::count_if(molecules_.begin(), molecules_.end(),
+                             [&](const SampledMolecule& molecule) { return !settled(molecule); }));
 }
 
 void MoleculeSample::settle() {
-    // another method where one does not settle them: what is stiff stays to the implicit ones
-    for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd})
+    for (const SolverKind kind : settlers())
         if (settleBy(kind) || limit_.over()) break;
     for (SampledMolecule& molecule : molecules_)
-        if (!told(molecule)) ask(molecule);
+        if (!settled(molecule)) ask(molecule);
 }
 
 // Whether it did. What an earlier method settled better stays.
@@ -87,6 +98,7 @@ bool MoleculeSample::settleBy(SolverKind kind) {
         if (settled()) return true;
     }
     std::vector<Snapshot> coarse;
+    int before = int(molecules_.size());
     for (; substeps <= maxSubsteps; substeps *= 2) {
         const Clock::time_point start = Clock::now();
         method.set({substeps, 1});
@@ -109,10 +121,9 @@ bool MoleculeSample::settleBy(SolverKind kind) {
                 ends_ = fine;
                 by_ = concat(shoal::name(kind), " with ", substeps, " substeps");
             }
-            const auto rough = std::count_if(
-                molecules_.begin(), molecules_.end(),
-                [&](const SampledMolecule& molecule) { return molecule.change > nearEnough * error_; });
-            if (100 * rough <= int(molecules_.size())) return true;
+            if (settled()) return true;
+            if (2 * before < molecules() && unsettled() > stalled * before) break;
+            before = unsettled();
         }
         if (2 * seconds > std::min(secondsARun, limit_.left())) break;
         coarse = fine;
@@ -138,7 +149,7 @@ std::string MoleculeSample::how() const {
     int exact = 0, others = 0;
     for (const SampledMolecule& molecule : molecules_) {
         exact += molecule.exact != nullptr;
-        others += molecule.exact == nullptr && told(molecule);
+        others += molecule.exact == nullptr && settled(molecule);
     }
     if (others == 0) return concat(exact, " by the reference");
     return concat(exact, " by the reference, ", others, " by ", by_);
@@ -155,28 +166,30 @@ SampleError MoleculeSample::errorOf(const std::vector<Snapshot>& ends) {
     };
     std::vector<size_t> far;
     for (size_t i = 0; i < molecules_.size(); ++i)
-        if (!molecules_[i].given() && told(molecules_[i]) && errorOf(i) > mostWorst * error_)
+        if (!molecules_[i].given() && settled(molecules_[i]) && errorOf(i) > mostWorst * error_)
             far.push_back(i);
     if (int(far.size()) + asked_ <= mostAsked)
         for (const size_t i : far)
             ask(molecules_[i]);
     SampleError out;
+    out.molecules = molecules();
     for (size_t i = 0; i < molecules_.size(); ++i) {
         const SampledMolecule& molecule = molecules_[i];
-        if (!told(molecule)) {
-            ++out.untold;
-            continue;
+        double error = errorOf(i);
+        if (!settled(molecule)) {
+            // what it is at least says enough where that is above, and at most where that is below
+            const double least = error - molecule.change, most = error + molecule.change;
+            if (!(least > error_ || most < error_)) {
+                ++out.unknown;
+                continue;
+            }
+            error = least > error_ ? least : most;
         }
-        ++out.compared;
-        const bool measured = molecule.change <= nearEnough * error_;
-        const double error = measured ? errorOf(i) : std::max(0.0, errorOf(i) - molecule.change);
         out.worst = std::max(out.worst, error);
-        if (!measured) continue;
-        ++out.measured;
         out.rms += error * error;
         out.above += error > error_;
     }
-    out.rms = std::sqrt(out.rms / std::max(1, out.measured));
+    out.rms = std::sqrt(out.rms / std::max(1, out.molecules - out.unknown));
     return out;
 }
 

@@ -229,8 +229,8 @@ TEST_CASE("--error finds a method, once", "[cli]") {
     const JsonValue calibration = member(explained.json(), "calibration");
     CHECK(member(calibration, "error").number < 1e-3);
     // of all 40 molecules, not of the few that have the reference
-    CHECK(member(calibration, "measured").number == 40);
-    CHECK(member(calibration, "untold").number == 0);
+    CHECK(member(calibration, "molecules").number == 40);
+    CHECK(member(calibration, "unknown").number == 0);
     CHECK(member(calibration, "above").number == 0);
     CHECK(member(calibration, "worst").number >= member(calibration, "error").number);
     CHECK_THAT(member(calibration, "how").text, Catch::Contains("4 by the reference, 36 by "));

@@ -92,15 +92,20 @@ TEST_CASE("a method is left out only when it is dearer each time that both are t
 
 TEST_CASE("an error is claimed of a sample that shows what one of a hundred molecules does", "[accuracy]") {
     CHECK(1 - std::pow(0.99, sampleMolecules) > 0.95);
-    CHECK(SampleError{.rms = 5e-5, .worst = 1e-4, .measured = 300}.holds(1e-3));
+    CHECK(SampleError{.rms = 5e-5, .worst = 1e-4, .molecules = 300}.holds(1e-3));
     CHECK_FALSE(SampleError{}.holds(1e-3));
     // 12 of 400 end elsewhere
-    CHECK_FALSE(SampleError{.rms = 3.9e-2, .worst = 0.36, .measured = 300, .above = 9}.holds(1e-3));
-    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 9}.holds(1e-3));
-    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 1.2e-2, .measured = 300, .above = 1}.holds(1e-3));
-    CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 3}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 3.9e-2, .worst = 0.36, .molecules = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .molecules = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 1.2e-2, .molecules = 300, .above = 1}.holds(1e-3));
+    CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .molecules = 300, .above = 3}.holds(1e-3));
+    // what is not known counts as above
+    CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .molecules = 300, .above = 1, .unknown = 2}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 2.5e-5, .worst = 8e-5, .molecules = 900, .unknown = 882}.holds(1e-4));
+    CHECK_FALSE(
+        SampleError{.rms = 9e-4, .worst = 2e-3, .molecules = 300, .above = 2, .unknown = 2}.holds(1e-3));
     // of few molecules none may be above
-    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 20, .above = 1}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .molecules = 20, .above = 1}.holds(1e-3));
 }
 
 TEST_CASE("the ladder of steps", "[accuracy]") {

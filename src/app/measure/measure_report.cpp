@@ -197,12 +197,12 @@ const AccuracyPoint* chosenPoint(const MeasureReport& report) {
 // Says how large the error is, and for which molecules that is claimed.
 static std::string sampleText(const Calibration& calibration) {
     const SampleError& s = calibration.sample;
-    std::string out = concat("measured ", exponent(calibration.error), " RMS");
-    if (s.compared > s.measured) out += concat(" of ", s.measured, " molecules");
-    out += concat(" and ", exponent(s.worst), " at worst of ", s.compared,
-                  s.compared == 1 ? " molecule (" : " molecules (", calibration.how, ")");
+    std::string out =
+        concat("measured after ", calibration.duration, " s: ", exponent(calibration.error), " RMS");
+    out += concat(" and ", exponent(s.worst), " at worst of ", s.molecules,
+                  s.molecules == 1 ? " molecule (" : " molecules (", calibration.how, ")");
     if (s.above > 0) out += concat(", ", s.above, " above");
-    if (s.untold > 0) out += concat(", nothing known of ", s.untold, " more");
+    if (s.unknown > 0) out += concat(", nothing known of ", s.unknown);
     return out;
 }
 

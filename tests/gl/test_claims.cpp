@@ -1,0 +1,149 @@
+// What --error claims of random scenes, against the double-precision reference of all their molecules.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "gl/gl_test.h"
+#include "measure/calibrate.h"
+#include "scene/json/scene_file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+namespace shoal {
+
+using namespace test;
+using namespace measure;
+
+namespace {
+
+constexpr int molecules = 24;
+
+// Draws a scene of one group. Chances are independent, "log" is uniform in the logarithm:
+//   molecule    quad, cross, leaf, fry                  stiffness  log 0.1 to 1,000 of its own: 6 to 2,500 Hz
+//   pins        half of the leaves, by their stems      turn       any; scale 0.7 to 1.4
+//   drag        3 of 4: log 0.1 to 10 /s, half of these by direction: along the surface a tenth
+//   wind        none, shear, vortex, gust, curlNoise    speed      log 0.3 to 3 m/s
+//   spin        one of 3 of what is not pinned: up to 8 rad/s about each axis
+//   plane       one of 4, 0.5 m below the lowest: restitution 0.5, friction 0.3
+std::string randomScene(uint64_t seed) {
+    Random random(seed);
+    const auto logarithmic = [&](double low, double high) {
+        return std::exp(random.uniform(std::log(low), std::log(high)));
+    };
+    const auto one = [&](int among) { return int(random.uniform() * among); };
+    const std::pair<std::string, double> kinds[] = {{"quad", 20}, {"cross", 10}, {"leaf", 0.39}, {"fry", 20}};
+    const auto& [molecule, stiffness] = kinds[one(4)];
+    std::string group = concat(
+        R"("molecule": ")", molecule, R"(", "count": )", molecules,
+        R"(, "place": {"on": "volume", "box": {"low": [-1, 0, -1], "high": [1, 1, 1]}, )",
+        R"("turn": "any", "scale": [0.7, 1.4]})", R"(, "stiffness": )", stiffness * logarithmic(0.1, 1000));
+    const bool pinned = molecule == "leaf" && one(2) == 1;
+    if (molecule == "leaf") group += concat(R"(, "held": )", pinned ? "true" : "false");
+    if (one(4) > 0) {
+        const double drag = logarithmic(0.1, 10);
+        group += one(2) == 1 ? concat(R"(, "drag": {"normal": )", drag, R"(, "tangent": )", 0.1 * drag, "}")
+                             : concat(R"(, "drag": )", drag);
+    }
+    const double speed = logarithmic(0.3, 3);
+    const std::string winds[] = {
+        "",
+        concat(R"({"type": "shear", "gradient": [[0, )", speed, R"(, 0], [0, 0, )", speed, "], [0, 0, 0]]}"),
+        concat(R"({"type": "vortex", "origin": [0.3, 0, 0.2], "axis": [0.2, 1, 0.1], "speed": )", speed,
+               R"(, "radius": 0.5})"),
+        concat(R"({"type": "gust", "direction": [1, 0, 0.3], "speed": )", speed, R"(, "length": 2})"),
+        concat(R"({"type": "curlNoise", "speed": )", speed, R"(, "length": 1, "period": 1})")};
+    const std::string wind = winds[one(5)];
+    if (!pinned && one(3) == 0)
+        group += concat(R"(, "spin": [)", random.uniform(-8, 8), ", ", random.uniform(-8, 8), ", ",
+                        random.uniform(-8, 8), "]");
+    const std::string plane =
+        one(4) == 0
+            ? R"(, "colliders": [{"type": "plane", "point": [0, -0.5, 0], "restitution": 0.5, "friction": 0.3}])"
+            : "";
+    return concat(R"({"format": "shoal-scene-1", "gravity": [0, -9.81, 0], "fields": [)", wind, "]", plane,
+                  R"(, "groups": [{)", group, "}]}");
+}
+
+struct Found {
+    double rms = 0, worst = 0;
+    int above = 0, unknown = 0;
+};
+
+// Each molecule by a reference of its own, so that one that has none leaves the others theirs.
+Found found(const Scene& scene, const Calibration& claim, const AccuracyDevice& device) {
+    MethodRunner runner(scene, claim.method, device);
+    runner.set({claim.substeps, 1});
+    runner.restart();
+    const std::vector<Snapshot> starts = runner.snapshots();
+    runner.run(int(std::lround(claim.duration * scene.frameRate)));
+    const std::vector<Snapshot> ends = runner.snapshots();
+    Found out;
+    for (int m = 0; m < molecules; ++m) {
+        ExactEnds exact(scene, runner.simulation().plan(), starts, claim.duration, device.cores, {{0, m}});
+        const Settled settled = exact.solve(0.01 * claim.target, 5);
+        if (settled != Settled::yes && exact.error() > 0.1 * claim.target) {
+            ++out.unknown;
+            continue;
+        }
+        const double error = exact.errorOf(ends).total;
+        out.rms += error * error;
+        out.worst = std::max(out.worst, error);
+        out.above += error > claim.target;
+    }
+    out.rms = std::sqrt(out.rms / std::max(1, molecules - out.unknown));
+    return out;
+}
+
+// Nothing where nothing is claimed.
+std::optional<Found> check(uint64_t seed, double error) {
+    const Scratch scratch;
+    scratch.write("claim.scene.json", randomScene(seed));
+    const Scene scene = readScene(scratch.path("claim.scene.json"));
+    const AccuracyDevice device{.context = &testContext(), .cores = 2, .path = testPath()};
+    CalibrationOptions options;
+    options.error = error;
+    try {
+        const Calibration claim = calibrate(scene, options, device);
+        const Found truth = found(scene, claim, device);
+        std::printf("%llu,%g,%s,%d,%g,%g,%d,%d,%g,%g,%d,%d,\"%s\"\n", static_cast<unsigned long long>(seed),
+                    error, name(claim.method).c_str(), claim.substeps, claim.duration, claim.error,
+                    claim.sample.above, claim.sample.unknown, truth.rms, truth.worst, truth.above,
+                    truth.unknown, claim.how.c_str());
+        return truth;
+    } catch (const Error& refusal) {
+        std::printf("%llu,%g,refused,,,,,,,,,,\"%s\"\n", static_cast<unsigned long long>(seed), error,
+                    refusal.message().c_str());
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("what --error claims of a scene holds for all of its molecules", "[claims]") {
+    for (const uint64_t seed : {5u, 8u}) {
+        constexpr double error = 1e-3;
+        CAPTURE(seed);
+        const std::optional<Found> truth = check(seed, error);
+        REQUIRE(truth);
+        CHECK(truth->unknown == 0);
+        CHECK(truth->above == 0);
+        CHECK(truth->rms < error);
+    }
+}
+
+// The table of docs/accuracy.md: twenty scenes from this seed on.
+TEST_CASE("what --error claims of random scenes", "[.claims]") {
+    const char* first = std::getenv("SHOAL_CLAIM");
+    const uint64_t begin = first ? std::strtoull(first, nullptr, 10) : 1;
+    for (uint64_t seed = begin; seed < begin + 20; ++seed)
+        for (const double error : {1e-2, 1e-3, 1e-4}) {
+            CAPTURE(seed, error);
+            const std::optional<Found> truth = check(seed, error);
+            std::fflush(stdout);
+            if (truth) CHECK(truth->rms < 2 * error);
+        }
+}
+
+}  // namespace shoal
