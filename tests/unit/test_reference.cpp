@@ -89,14 +89,14 @@ TEST_CASE("free fall with Stokes drag follows its closed form", "[reference]") {
         if (rate > 0) problem.fields.push_back(test::field(UniformField{wind}));
         const State start = restState(problem, {.position = {1, 2, 3}}, v0);
         const double t = 1.5;
-        const Solution solution = solve(problem, start, t, 1e-10);
+        const Solution solution = solve(problem, start, t, 1e-12);
         REQUIRE(solution.converged);
         glm::dvec3 x = start.position[0] + v0 * t + 0.5 * problem.gravity * t * t;
         if (rate > 0) {
             const glm::dvec3 terminal = wind + problem.gravity / rate;
             x = start.position[0] + terminal * t + (v0 - terminal) * (1 - std::exp(-rate * t)) / rate;
         }
-        CHECK(glm::length(solution.state.position[0] - x) < 1e-9);
+        CHECK(glm::length(solution.state.position[0] - x) < 1e-10);
     }
 }
 
