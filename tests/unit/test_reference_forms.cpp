@@ -1,5 +1,5 @@
-// Judges the double-precision reference itself by motions that have closed forms, to 1e-10. Contact has its own in
-// test_reference_contact.cpp.
+// Judges the double-precision reference itself by motions that have closed forms, to 1e-10. Contact has its
+// own in test_reference_contact.cpp.
 #include <cmath>
 #include <numbers>
 
@@ -34,8 +34,8 @@ Elliptic elliptic(double u, double k) {
     return {std::sin(angle), std::cos(angle), std::sqrt(1 - k * k * std::sin(angle) * std::sin(angle))};
 }
 
-// What of a motion would be left if springs were rigid, from three stiffnesses, each twice the one before: its first
-// two powers of 1 / stiffness cancel.
+// What of a motion would be left if springs were rigid, from three stiffnesses, each twice the one before:
+// its first two powers of 1 / stiffness cancel.
 template <typename Motion>
 auto rigidLimit(double stiffness, const Motion& motion) {
     const auto a = motion(stiffness), b = motion(2 * stiffness), c = motion(4 * stiffness);
@@ -75,8 +75,8 @@ Vectors stretchOf(const Molecule& molecule, const Vectors& forces) {
 }  // namespace
 
 TEST_CASE("damped modes of a chain decay as their closed form says", "[reference][closed-form]") {
-    // Along a line springs are linear. Equal masses between equal springs with damping in proportion have the modes
-    // sin(pi j k / 4), pinned at both ends.
+    // Along a line springs are linear. Equal masses between equal springs with damping in proportion have the
+    // modes sin(pi j k / 4), pinned at both ends.
     constexpr double mass = 0.5, k = 30, c = 0.4, time = 2;
     Molecule molecule;
     for (int i = 0; i < 5; ++i)
@@ -173,8 +173,8 @@ TEST_CASE("a free asymmetric top turns as Euler's equations say", "[reference][c
     const double twice = glm::dot(inertia, spin * spin), square = glm::dot(inertia * spin, inertia * spin);
     const double slow = twice * inertia.z - square, fast = square - twice * inertia.x;
     const double rate = std::sqrt((inertia.z - inertia.y) * fast / (inertia.x * inertia.y * inertia.z));
-    const Elliptic e = elliptic(
-        rate * time, std::sqrt((inertia.y - inertia.x) * slow / ((inertia.z - inertia.y) * fast)));
+    const Elliptic e =
+        elliptic(rate * time, std::sqrt((inertia.y - inertia.x) * slow / ((inertia.z - inertia.y) * fast)));
     const dvec3 expected(std::sqrt(slow / (inertia.x * (inertia.z - inertia.x))) * e.cn,
                          std::sqrt(slow / (inertia.y * (inertia.z - inertia.y))) * e.sn,
                          std::sqrt(fast / (inertia.z * (inertia.z - inertia.x))) * e.dn);
