@@ -40,7 +40,7 @@ struct Surface {
 uniform sampler2DShadow shadowMap;
 uniform mat4 toShadow;       // place -> texel and depth
 uniform vec2 shadowOffsets;  // m, along the normal and towards the sun
-// A second map, of what stands still, where the first ends, which begins at texel 0 and has `nearTexels` a side.
+// A second map, of what stands still, beyond the first one. That begins at texel 0 and has `nearTexels` a side.
 uniform float nearTexels;
 uniform vec3 wideShadowScale, wideShadowStart;  // from texel and depth in the first map to those in the second
 uniform vec2 wideShadowOffsets;

@@ -1,7 +1,7 @@
 // Host models, terrain and colliders. Set by C++, true or false: PLANE, which has no end and fades into the haze instead;
 // GRID, of lines every metre on a plane; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material
-// (geometry/mesh.h); METALLIC, where it is a mirror; GRAINY, and STONY, of stone; CUT, out of the colour image by its alpha; REFRACTS, of what is
-// blended.
+// (geometry/mesh.h); METALLIC, where it is a mirror; GRAINY, where it has grain, and STONY, where that is
+// stone's; CUT, out of the colour image by its alpha; REFRACTS, of what is blended.
 
 #include "render/alpha_cut.glsl"
 #include "render/glass.glsl"

@@ -61,6 +61,7 @@ class Search {
     }
     // Whether more than this share of the time is over.
     bool late(double share = 1) const { return limit_.over(share); }
+    bool hurried() const { return hurried_; }
 
   private:
     void tell(const std::string& what) const {
@@ -85,7 +86,7 @@ class Search {
             solveReference(*run.few);
     }
 
-    // Where the motion of one of a hundred molecules is chaotic or too stiff over the whole time, over a
+    // Where the ends of more than one of a hundred molecules are not known over the whole time, over a
     // shorter one.
     void solveReference(MethodRunner& runner) {
         runner.restart();
@@ -101,7 +102,7 @@ class Search {
             const bool last = frames_ == least || late(readying);
             if (settled == Settled::yes ||
                 (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error)) {
-                tell(concat("solving a sample of ", sampleMolecules, " molecules over ",
+                tell(concat("solving a sample of up to ", sampleMolecules, " molecules a group over ",
                             frames_ / few_.frameRate, " s"));
                 // in half of the time that is left, so that a shorter motion has some
                 const double share =
@@ -112,6 +113,7 @@ class Search {
                                                            device_, limit_.part(share));
                 sample_->settle();
                 if (sample_->settled()) return;
+                hurried_ = hurried_ || sample_->outOfTime();
                 if (last) refuseUnsettled();
             } else if (last) {
                 refuseWithoutReference(settled);
@@ -120,6 +122,11 @@ class Search {
     }
 
     [[noreturn]] void refuseUnsettled() const {
+        if (hurried_) refuseForTime(nullptr);
+        if (sample_->molecules() == 0)
+            throw Error(place_,
+                        concat("--error ", options_.error,
+                               " cannot be claimed: no method that takes short steps runs this scene"));
         throw Error(place_, concat("--error ", options_.error, " cannot be claimed: the ends of ",
                                    sample_->unsettled(), " of ", sample_->molecules(),
                                    " molecules still change when the step is halved, after ",
@@ -326,8 +333,9 @@ class Search {
         if (late()) out.why += concat("; the search ended after ", *options_.seconds, " s");
         out.duration = frames_ / few_.frameRate;
         if (out.duration < 0.9 * options_.duration)
-            out.why += concat("; over more than ", out.duration,
-                              " s too many ends are chaotic, or finer than floats tell");
+            out.why += concat(
+                "; over more than ", out.duration, " s too many ends are ",
+                hurried_ ? "not known in the time given" : "chaotic, too stiff, or finer than floats tell");
         device_.context->checkErrors("calibrate");
         return out;
     }
@@ -361,6 +369,7 @@ class Search {
     const Location place_;
     Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
+    bool hurried_ = false;  // a longer motion had no time
     std::unique_ptr<ExactEnds> reference_;
     std::unique_ptr<MoleculeSample> sample_;
     std::vector<Step> ladder_;
@@ -391,7 +400,7 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
     Search search(scene, options, device);
     Calibration out = search.run();
-    const bool whole = !search.late();
+    const bool whole = !search.late() && !search.hurried();
     out.seconds = secondsSince(start);
     if (whole) keepCalibration(options.folder, key, out);
     return out;

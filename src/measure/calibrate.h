@@ -45,7 +45,7 @@ struct CalibrationOptions {
     std::vector<SolverKind> solvers = {};
     std::vector<FieldSampling> samplings = {};
     std::optional<int> substeps = {};
-    double duration = 1;  // s of simulated time; less where there is no reference then, to an eighth
+    double duration = 1;  // s of simulated time; less where ends are not known then, to an eighth
     int molecules = 4;    // of each group, with the reference
     std::optional<double> seconds = 60;  // of the search, about: then the best that was found is taken
     std::string limitOption = "--error-seconds";        // where users give more of them
@@ -117,7 +117,9 @@ class MoleculeSample {
     // Finds the method that the others are held against. What it does not settle has the reference, as far as
     // time allows.
     void settle();
-    bool settled() const { return 100 * unsettled() <= int(molecules_.size()); }  // but for one of a hundred
+    // All but one of a hundred.
+    bool settled() const { return !molecules_.empty() && 100 * unsettled() <= molecules(); }
+    bool outOfTime() const { return outOfTime_; }  // rather than out of ways
     int unsettled() const;
     int molecules() const { return int(molecules_.size()); }
     // "4 by the reference, 296 by leapfrog with 128 substeps"
@@ -129,9 +131,10 @@ class MoleculeSample {
   private:
     struct SampledMolecule {
         size_t group = 0;
-        int index = 0;                     // in the group
-        double size = 1;                   // m
-        double change = 1e30;              // of its end when the step was halved; 0: the reference has it
+        int index = 0;    // in the group
+        double size = 1;  // m
+        double change =
+            1e30;  // of its end when the step was halved; 1e30: not known; 0: the reference has it
         const ExactEnds* exact = nullptr;  // the reference that has it,
         size_t place = 0;                  // and where among its molecules
         bool asked = false;                // for a reference of its own, which it has or cannot have
@@ -154,6 +157,7 @@ class MoleculeSample {
     std::vector<SampledMolecule> molecules_;
     std::vector<std::unique_ptr<ExactEnds>> own_;  // references of single molecules
     int asked_ = 0;
+    bool outOfTime_ = false;
 };
 
 }  // namespace shoal::measure

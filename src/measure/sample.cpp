@@ -7,11 +7,11 @@ namespace shoal::measure {
 
 namespace {
 
-constexpr double nearEnough = 0.3;   // of the error wanted: a change when the step is halved
-constexpr double floatNoise = 1e-4;  // below it two runs in float agree
-constexpr double secondsARun = 6;    // of all molecules by one method at one step
-constexpr double stalled = 0.9;      // of the molecules that a step leaves unsettled: its half leaves as many
+constexpr double nearEnough = 0.3;  // of the error wanted: a change when the step is halved
+constexpr double secondsARun = 6;   // of all molecules by one method at one step
+constexpr double stalled = 0.9;     // of the molecules that a step leaves unsettled: its half leaves as many
 constexpr int mostAsked = 6;
+constexpr double unknownChange = 1e30;
 constexpr int mostWorst = 10;  // times the error wanted
 
 // Another method where one does not settle the molecules: one of higher order has less noise in float,
@@ -58,6 +58,8 @@ int MoleculeSample::unsettled() const {
 void MoleculeSample::settle() {
     for (const SolverKind kind : settlers())
         if (settleBy(kind) || limit_.over()) break;
+    outOfTime_ = outOfTime_ || limit_.over();
+    if (100 * (unsettled() - mostAsked) > molecules()) return;  // too many for references of their own
     for (SampledMolecule& molecule : molecules_)
         if (!settled(molecule)) ask(molecule);
 }
@@ -105,26 +107,23 @@ bool MoleculeSample::settleBy(SolverKind kind) {
         method.run(frames_);
         const std::vector<Snapshot> fine = method.snapshots();
         const double seconds = secondsSince(start);
-        if (!coarse.empty() && core_.errorOf(fine).worst <= std::max(error_, floatNoise)) {
+        if (!coarse.empty() && core_.errorOf(fine).worst <= error_) {
             const std::vector<double> change = distances(coarse, fine);
-            const auto sum = [&](const auto& value) {
-                double out = 0;
-                for (size_t i = 0; i < molecules_.size(); ++i)
-                    if (!molecules_[i].given()) out += std::isfinite(value(i)) ? std::min(value(i), 1.0) : 1;
-                return out;
-            };
-            if (sum([&](size_t i) { return change[i]; }) <
-                sum([&](size_t i) { return molecules_[i].change; })) {
+            int open = 0;
+            for (size_t i = 0; i < molecules_.size(); ++i)
+                open += !molecules_[i].given() && !(change[i] <= nearEnough * error_);
+            if (open < unsettled()) {
                 for (size_t i = 0; i < molecules_.size(); ++i)
                     if (!molecules_[i].given())
-                        molecules_[i].change = std::isfinite(change[i]) ? change[i] : 1e30;
+                        molecules_[i].change = std::isfinite(change[i]) ? change[i] : unknownChange;
                 ends_ = fine;
                 by_ = concat(shoal::name(kind), " with ", substeps, " substeps");
             }
             if (settled()) return true;
-            if (2 * before < molecules() && unsettled() > stalled * before) break;
-            before = unsettled();
+            if (2 * before < molecules() && open > stalled * before) break;
+            before = open;
         }
+        outOfTime_ = outOfTime_ || 2 * seconds > limit_.left();
         if (2 * seconds > std::min(secondsARun, limit_.left())) break;
         coarse = fine;
     }
@@ -138,11 +137,11 @@ void MoleculeSample::ask(SampledMolecule& molecule) {
     const std::vector<std::pair<size_t, int>> which = {{molecule.group, molecule.index}};
     auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
                                            frames_ / scene_.frameRate, device_.cores, which);
-    const Settled settled = own->solve(0.01 * error_, std::min(referenceSeconds, limit_.left()));
-    const bool near =
-        settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_);
-    molecule.change = near ? 0 : 1e30;
-    if (near) molecule.exact = own_.emplace_back(std::move(own)).get();
+    const Settled found = own->solve(0.01 * error_, std::min(referenceSeconds, limit_.left()));
+    if (found != Settled::yes && !(found == Settled::roughly && own->error() <= nearEnough * error_))
+        return;  // what the device says of it stays
+    molecule.change = 0;
+    molecule.exact = own_.emplace_back(std::move(own)).get();
 }
 
 std::string MoleculeSample::how() const {
@@ -175,6 +174,10 @@ SampleError MoleculeSample::errorOf(const std::vector<Snapshot>& ends) {
     out.molecules = molecules();
     for (size_t i = 0; i < molecules_.size(); ++i) {
         const SampledMolecule& molecule = molecules_[i];
+        if (!molecule.exact && !(molecule.change < unknownChange)) {
+            ++out.unknown;
+            continue;
+        }
         double error = errorOf(i);
         if (!settled(molecule)) {
             // what it is at least says enough where that is above, and at most where that is below

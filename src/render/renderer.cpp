@@ -16,7 +16,7 @@ namespace shoal {
 static std::unique_ptr<Shadows> makeShadows(gpu::Context& context, const Scene& scene,
                                             const SceneBounds& bounds, const RenderOptions& options) {
     if (!scene.light.shadows || scene.light.intensity <= 0) return nullptr;
-    const int most = std::min(options.shadowSize, context.info().maxTextureSize / 2);
+    const int most = std::min(options.shadowSize, context.info().maxTextureSize / 2);  // side by side
     return std::make_unique<Shadows>(context, most, bounds.casters, bounds.models, towardsSun(scene.light));
 }
 

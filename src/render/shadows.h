@@ -43,8 +43,7 @@ class ShadowMap {
     float blur_ = 0;  // m
 };
 
-// The maps of a scene, beside one another in one texture, so that a pixel reads of the one that it lies in
-// alone.
+// The maps of a scene, beside one another in one texture, so that a pixel reads only the one that it lies in.
 class Shadows {
   public:
     // A map of everything about what moves, and another of what stands still where that one does not cover
@@ -57,7 +56,7 @@ class Shadows {
     // What stands still: before the first picture, and when it has changed. `some`: whether there is any.
     void drawStill(bool some, const Casters& casters);
     void drawMoving(const Casters& casters);  // for each picture
-    void clear();                             // nothing is in the shade of what moves
+    void clear();                             // in the first map nothing lies in the shade
 
     bool wide() const { return wide_.has_value(); }
     void apply(const gpu::Program& program, const Eye& eye) const;

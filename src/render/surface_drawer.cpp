@@ -205,7 +205,7 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
     surfaces_.push_back(std::move(drawn));
 }
 
-// A program for each set of images that a material has.
+// A program for each set of images and looks that a material has.
 void SurfaceDrawer::choosePrograms(gpu::Context& context, const Lighting& lighting) {
     for (Drawn& surface : surfaces_) {
         for (Look& look : surface.looks) {
