@@ -4,7 +4,7 @@
 spin.py [--seconds S] [--solvers NAME…]        with build/python in PYTHONPATH
 
 The cube has edges of 1 m, vertices of 1 kg and a spring without damping between each two of them. Eight of them, turned at
-random, spin about the same axis. Explicit solvers take the fewest substeps of 1/60 s that are stable, or 8. What changes is
+random, spin about the same axis. Explicit solvers take 8 substeps a frame, or as many as keep them stable. What changes is
 the solver's error: nothing acts on the cubes.
 """
 import argparse

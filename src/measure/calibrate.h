@@ -129,12 +129,12 @@ class MoleculeSample {
     SampleError errorOf(const std::vector<Snapshot>& ends);
 
   private:
+    static constexpr double unknownChange = 1e30;
     struct SampledMolecule {
         size_t group = 0;
-        int index = 0;    // in the group
-        double size = 1;  // m
-        double change =
-            1e30;  // of its end when the step was halved; 1e30: not known; 0: the reference has it
+        int index = 0;                     // in the group
+        double size = 1;                   // m
+        double change = unknownChange;     // of its end when the step was halved; 0: the reference has it
         const ExactEnds* exact = nullptr;  // the reference that has it,
         size_t place = 0;                  // and where among its molecules
         bool asked = false;                // for a reference of its own, which it has or cannot have

@@ -11,7 +11,6 @@ constexpr double nearEnough = 0.3;  // of the error wanted: a change when the st
 constexpr double secondsARun = 6;   // of all molecules by one method at one step
 constexpr double stalled = 0.9;     // of the molecules that a step leaves unsettled: its half leaves as many
 constexpr int mostAsked = 6;
-constexpr double unknownChange = 1e30;
 constexpr int mostWorst = 10;  // times the error wanted
 
 // Another method where one does not settle the molecules: one of higher order has less noise in float,

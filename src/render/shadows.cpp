@@ -81,6 +81,11 @@ Shadows::Shadows(gpu::Context& context, int most, const Box& casters, const Box&
         firstOfWide_ = {near_.size() + rimOfWide, rimOfWide};
         size = {firstOfWide_.x + wide_->size() + rimOfWide,
                 std::max(near_.size(), wide_->size() + 2 * rimOfWide)};
+        // Both look along the sun's light, so that one is a part of the other.
+        const glm::dmat4 between = wide_->toTexels(near_.origin(), firstOfWide_) *
+                                   glm::inverse(near_.toTexels(near_.origin(), {0, 0}));
+        wideScale_ = {between[0].x, between[1].y, between[2].z};
+        wideStart_ = glm::vec3(between[3]);
     }
     depth_ = gpu::Texture(context, gpu::Format::depth24, size.x, size.y, "shadow maps");
     target_ = gpu::Framebuffer(context, {}, &depth_, "shadow maps");
@@ -143,11 +148,8 @@ void Shadows::apply(const gpu::Program& program, const Eye& eye) const {
     program.set("shadowOffsets", near_.offsets());
     if (!wide_) return;
     program.set("nearTexels", float(near_.size()));
-    // Both look along the sun's light, so that one is a part of the other.
-    const glm::dmat4 between =
-        wide_->toTexels(eye.origin, firstOfWide_) * glm::inverse(near_.toTexels(eye.origin, {0, 0}));
-    program.set("wideShadowScale", glm::vec3(between[0].x, between[1].y, between[2].z));
-    program.set("wideShadowStart", glm::vec3(between[3]));
+    program.set("wideShadowScale", wideScale_);
+    program.set("wideShadowStart", wideStart_);
     program.set("wideShadowOffsets", wide_->offsets());
     const glm::vec2 low = glm::vec2(firstOfWide_) - 1.5f,
                     high = glm::vec2(firstOfWide_ + wide_->size()) + 1.5f;

@@ -65,9 +65,10 @@ class Shadows {
     gpu::Context* context_;
     ShadowMap near_;
     std::optional<ShadowMap>
-        wide_;                    // of what stands still, where the first ends; none: it does not end in view
-    glm::ivec2 firstOfWide_{0};   // texel
-    gpu::Texture depth_, still_;  // `still_`: of the first map, what stands still alone
+        wide_;                   // of what stands still, where the first ends; none: it does not end in view
+    glm::ivec2 firstOfWide_{0};  // texel
+    glm::vec3 wideScale_{1}, wideStart_{0};  // from texel and depth in the first map to those in the wide one
+    gpu::Texture depth_, still_;             // `still_`: of the first map, what stands still alone
     gpu::Framebuffer target_, stillTarget_;
 };
 
