@@ -202,6 +202,8 @@ class Sweep {
         }
         const std::string refusal = curve.few->refusal(step);
         if (!refusal.empty()) return refuse(curve, step, refusal);
+        if (const std::optional<Step> longest = longestTaken(curve, step)) measure(curve, *longest);
+        if (curve.done) return;
         const double seconds = secondsOf(curve, step);
         if (measured_ > 0 && seconds > limit_.left(byErrors)) {
             AccuracyPoint& point = add(curve, step);
@@ -212,6 +214,20 @@ class Sweep {
         }
         measure(curve, step);
         tell(seconds);
+    }
+
+    // The longest step that a method takes, where the ladder goes past it: between the last that was refused
+    // and this one.
+    static std::optional<Step> longestTaken(const Curve& curve, const Step& step) {
+        if (curve.points.empty() || curve.points.back().outcome != Outcome::refused) return {};
+        const int most = step.perFrame() / step.split;
+        int refused = curve.points.back().step.perFrame() / step.split, taken = most;
+        while (taken - refused > 1) {
+            const int middle = (refused + taken) / 2;
+            (curve.few->refusal({middle, step.split}).empty() ? taken : refused) = middle;
+        }
+        if (taken == most) return {};
+        return Step{taken, step.split};
     }
 
     void measure(Curve& curve, const Step& step) {

@@ -55,6 +55,8 @@ TEST_CASE("measure reports every point as JSON and CSV", "[cli]") {
     const JsonValue report = outcome.json();
     CHECK_FALSE(member(member(report, "machine"), "processor").text.empty());
     CHECK_FALSE(member(member(report, "context"), "renderer").text.empty());
+    CHECK_FALSE(member(report, "commit").text.empty());
+    CHECK(member(report, "date").text.size() == 10);
     CHECK(member(report, "duration").number == Approx(0.2));
     CHECK(member(report, "target").number == 1e-3);
     CHECK(member(report, "chaotic").kind == JsonValue::Kind::null);
@@ -98,6 +100,29 @@ TEST_CASE("measure reports every point as JSON and CSV", "[cli]") {
     CHECK(size_t(std::count(csv.begin(), csv.end(), '\n')) == points.size() + 1);
     CHECK(csv.rfind("solver,fieldSampling,substeps,", 0) == 0);
     CHECK(std::count(csv.begin(), csv.begin() + ptrdiff_t(csv.find('\n')), ',') == 19);
+}
+
+TEST_CASE("measure takes the longest step at which a method is stable, between the halvings", "[cli]") {
+    const Scratch scratch;
+    const Outcome outcome = runShoal(
+        quick(shearScene(scratch, R"(, "stiffness": 2000)"), {"--json", "--samplings", "vertexSubstep"}),
+        cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    std::string why;  // "... use at least N substeps ..."
+    std::vector<double> taken;
+    for (const JsonValue& point : member(report, "points").items) {
+        if (member(point, "solver").text != "leapfrog") continue;
+        if (member(point, "outcome").text == "refused")
+            why = member(point, "why").text;
+        else
+            taken.push_back(member(point, "substeps").number);
+    }
+    INFO(why);
+    REQUIRE_FALSE(taken.empty());
+    CHECK_THAT(why, Catch::Contains(concat("use at least ", taken.front(), " substeps")));
+    CHECK(std::log2(taken.front()) != std::floor(std::log2(taken.front())));
 }
 
 TEST_CASE("measure prints a table, and says what it did otherwise", "[cli]") {

@@ -4,7 +4,6 @@
 // Checks (bench/device_checks.h and pictures), the cases of `shoal bench`, then every scene that ships, drawn
 // at two sizes. What fails is a row with the driver's words, and the next one goes on; only a lost device
 // ends it. The file is written at the end, whole or not at all.
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -267,13 +266,6 @@ std::string asText(const DeviceReport& report, const std::string& file) {
     for (const std::string& trouble : troubles(report))
         out += concat("  ", trouble.substr(0, trouble.find('\n')), "\n");
     return out;
-}
-
-std::string today() {
-    const std::time_t time = std::time(nullptr);
-    char text[16] = {};
-    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&time));
-    return text;
 }
 
 }  // namespace

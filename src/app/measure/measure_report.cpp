@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "app/line/commit.h"
 #include "bench/case.h"
 #include "core/error.h"
 #include "core/printable.h"
@@ -245,7 +246,7 @@ JsonValue asJson(const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
     const auto orNull = [](const std::string& text) { return text.empty() ? JsonValue() : toJson(text); };
     JsonValue out = object(
-        key("version", SHOAL_VERSION),
+        key("version", SHOAL_VERSION), key("commit", commit()), key("date", today()),
         key("machine",
             object(key("processor", report.machine.processor), key("cores", report.machine.cores))),
         key("context", bench::asJson(report.machine.context)), key("scene", a.scene),
