@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "compile/surface_pair.h"
 #include "core/parallel.h"
@@ -13,14 +14,15 @@ namespace shoal::measure {
 
 namespace {
 
-reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
-    const Group& group = scene.groups[plan.index];
+constexpr int halvings = 12;
+
+reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase) {
     reference::Problem out;
     out.molecule = &group.molecule;
-    out.scale = plan.constants.scales[size_t(m)];
+    out.scale = scale;
     out.stiffness = group.stiffness;
     out.damping = group.damping;
-    out.phase = plan.constants.phases[size_t(m)];
+    out.phase = phase;
     out.held = group.held;
     out.gravity = scene.gravity;
     out.drag = group.drag;
@@ -89,30 +91,40 @@ ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Sna
 
 ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts,
                      double duration, int cores, const std::vector<std::pair<size_t, int>>& which)
-    : duration_(duration), cores_(std::max(1, cores)) {
+    : scene_(scene), duration_(duration), cores_(std::max(1, cores)) {
     for (const GroupPlan& group : plan.groups)
-        names_.push_back(group.name);
+        groups_.push_back({&scene.groups[group.index], group.name});
     for (const auto& [g, m] : which) {
+        const GroupConstants& constants = plan.groups[g].constants;
         ExactMolecule molecule;
         molecule.group = g;
         molecule.index = m;
-        molecule.problem = problemOf(scene, plan.groups[g], m);
-        molecule.size = molecule.problem.size();
+        molecule.scale = double(constants.scales[size_t(m)]);
+        molecule.phase = double(constants.phases[size_t(m)]);
         molecule.start = molecule.end = stateOf(starts[g], m);
-        if (molecules_.empty() || molecules_.back().group != g)
-            secondsPerStep_ =
-                std::max(secondsPerStep_, measureStep(molecule.problem, molecule.start, duration_));
+        const double size = groups_[g].group->molecule.size() * molecule.scale;
+        molecule.size = size > 0 ? size : 1;
+        if (groups_[g].steps == 0) {
+            const reference::Problem problem = problemOf(molecule);
+            groups_[g].steps = double(reference::firstSteps(problem, duration_));
+            groups_[g].smooth = problem.colliders.empty();
+            secondsPerStep_ = std::max(secondsPerStep_, measureStep(problem, molecule.start, duration_));
+        }
         molecules_.push_back(std::move(molecule));
     }
+}
+
+reference::Problem ExactEnds::problemOf(const ExactMolecule& molecule) const {
+    return measure::problemOf(scene_, *groups_[molecule.group].group, molecule.scale, molecule.phase);
 }
 
 // Estimates the seconds of one molecule as most need them: its step is halved six times or, where contact
 // breaks the order, as often as is allowed. Then the last halving is left out, because it would not end in
 // time.
 double ExactEnds::secondsOf(const ExactMolecule& molecule, double most) const {
-    const bool smooth = molecule.problem.colliders.empty();
-    const double first = double(reference::firstSteps(molecule.problem, duration_)) * secondsPerStep_;
-    return std::min(smooth ? most : most / 2, first * (smooth ? 127 : 8191));
+    const ExactGroup& group = groups_[molecule.group];
+    return std::min(group.smooth ? most : most / 2,
+                    group.steps * secondsPerStep_ * (group.smooth ? 127 : 8191));
 }
 
 double ExactEnds::secondsToSolve(double secondsAMolecule) const {
@@ -128,13 +140,13 @@ double ExactEnds::secondsEach(double seconds, double most) const {
 }
 
 std::string ExactEnds::nameOf(const ExactMolecule& molecule) const {
-    return concat("molecule ", molecule.index, " of \"", names_[molecule.group], "\"");
+    return concat("molecule ", molecule.index, " of \"", groups_[molecule.group].name, "\"");
 }
 
 // Decides beforehand, with a margin for the uncertainty of the estimate. A molecule that passes by mistake is
 // ended by the clock.
 bool ExactEnds::tooStiff(const ExactMolecule& molecule, double seconds) {
-    const double steps = double(reference::firstSteps(molecule.problem, duration_));
+    const double steps = groups_[molecule.group].steps;
     if (3 * steps * secondsPerStep_ < 2 * seconds) return false;
     why_ = concat(nameOf(molecule), " takes ", steps, " steps and more over ", duration_,
                   " s, which is too stiff for a reference in ", seconds, " s");
@@ -176,12 +188,11 @@ Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
         if (tooStiff(molecule, secondsAMolecule)) return Settled::tooStiff;
     std::vector<reference::Solution> solutions(molecules_.size());
     std::atomic<bool> hopeless = false;  // one that is too stiff or chaotic is enough
-    constexpr int halvings = 12;
     parallel(int(molecules_.size()), cores_, [&](int i) {
         if (hopeless) return;
         const ExactMolecule& molecule = molecules_[size_t(i)];
         reference::Solution& solution = solutions[size_t(i)];
-        solution = reference::solve(molecule.problem, molecule.start, duration_, tolerance, halvings,
+        solution = reference::solve(problemOf(molecule), molecule.start, duration_, tolerance, halvings,
                                     secondsAMolecule);
         if (!solution.converged && !(solution.error <= mostChange)) hopeless = true;
     });
@@ -197,6 +208,30 @@ Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
     if (worst == Settled::yes) tolerance_ = tolerance;
     if (worst <= Settled::roughly) keep(solutions);
     return worst;
+}
+
+void ExactEnds::solveEach(const std::vector<size_t>& which, double tolerance, double secondsAMolecule,
+                          const TimeLimit& limit) {
+    std::mutex guard;  // of what is told
+    parallel(int(which.size()), cores_, [&](int i) {
+        ExactMolecule& molecule = molecules_[which[size_t(i)]];
+        const double seconds = std::min(secondsAMolecule, limit.left());
+        if (seconds <= 0) return;
+        if (3 * groups_[molecule.group].steps * secondsPerStep_ >= 2 * secondsAMolecule) {
+            const std::lock_guard lock(guard);
+            tooStiff(molecule, secondsAMolecule);
+            return;
+        }
+        reference::Solution solution =
+            reference::solve(problemOf(molecule), molecule.start, duration_, tolerance, halvings, seconds);
+        if (solution.ended != reference::Ended::outOfTime || seconds == secondsAMolecule) {
+            const std::lock_guard lock(guard);
+            molecule.chaotic = judge(molecule, solution, seconds) == Settled::chaotic;
+        }
+        if (solution.error >= molecule.bound) return;
+        molecule.bound = solution.error;
+        molecule.end = std::move(solution.state);
+    });
 }
 
 bool ExactEnds::finite(const std::vector<Snapshot>& ends) {
@@ -229,22 +264,13 @@ ErrorParts ExactEnds::errorOf(const std::vector<Snapshot>& ends) const {
     return out;
 }
 
-std::vector<double> ExactEnds::eachOf(const std::vector<Snapshot>& ends) const {
-    std::vector<double> out;
-    for (const ExactMolecule& molecule : molecules_)
-        out.push_back(reference::relativeError(stateOf(ends[molecule.group], molecule.index), molecule.end,
-                                               molecule.size));
-    return out;
-}
-
-std::optional<size_t> ExactEnds::placeOf(size_t group, int molecule) const {
-    for (size_t i = 0; i < molecules_.size(); ++i)
-        if (molecules_[i].group == group && molecules_[i].index == molecule) return i;
-    return std::nullopt;
+double ExactEnds::errorOf(size_t molecule, const Snapshot& end) const {
+    const ExactMolecule& m = molecules_[molecule];
+    return reference::relativeError(stateOf(end, m.index), m.end, m.size);
 }
 
 Drift ExactEnds::driftOf(const ExactMolecule& molecule, const reference::State& end) const {
-    const reference::Problem& p = molecule.problem;
+    const reference::Problem p = problemOf(molecule);
     const double mass = p.molecule->mass();
     const auto moving = [&](const reference::State& state) {
         return reference::kineticEnergy(p, state) + reference::springEnergy(p, state);

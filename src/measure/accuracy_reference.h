@@ -1,11 +1,12 @@
 // Where the measured molecules of a scene ought to be at the end, in double precision.
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "compile/plan.h"
+#include "measure/timing.h"
 #include "reference/solve.h"
 #include "simulate/simulation.h"
 
@@ -64,23 +65,44 @@ class ExactEnds {
     const std::string& why() const { return why_; }
     double error() const { return error_; }  // of what is there: a bound
 
+    // Solves each of these by itself, in their order, in at most so many seconds a molecule and until the
+    // time is over: where one is chaotic or too stiff the others still have their ends.
+    void solveEach(const std::vector<size_t>& which, double tolerance, double secondsAMolecule,
+                   const TimeLimit& limit);
+    // A bound of the error of a molecule's end; infinity where nothing is known of it.
+    double bound(size_t molecule) const { return molecules_[molecule].bound; }
+    // Whether more time would not help.
+    bool chaotic(size_t molecule) const { return molecules_[molecule].chaotic; }
+
     static bool finite(const std::vector<Snapshot>& ends);
     ErrorParts errorOf(const std::vector<Snapshot>& ends) const;
     Drift driftOf(const std::vector<Snapshot>& ends) const;
     int molecules() const { return int(molecules_.size()); }
-    // Returns the relative error of each molecule; placeOf() says where among them one is.
-    std::vector<double> eachOf(const std::vector<Snapshot>& ends) const;
-    std::optional<size_t> placeOf(size_t group, int molecule) const;
+    // The group of a molecule, its number in that, and the length that errors are shares of, in m.
+    size_t group(size_t molecule) const { return molecules_[molecule].group; }
+    int number(size_t molecule) const { return molecules_[molecule].index; }
+    double size(size_t molecule) const { return molecules_[molecule].size; }
+    double errorOf(size_t molecule, const Snapshot& end) const;  // relative; the end of its group
     static reference::State stateOf(const Snapshot& snapshot, int molecule);
 
   private:
     struct ExactMolecule {
         size_t group = 0;
         int index = 0;  // in the group
-        double size = 1;
-        reference::Problem problem;
+        double size = 1, scale = 1, phase = 0;
         reference::State start, end;
+        double bound = std::numeric_limits<double>::infinity();
+        bool chaotic = false;
     };
+    // All molecules of a group take as many steps.
+    struct ExactGroup {
+        const Group* group = nullptr;
+        std::string name;
+        double steps = 0;    // of the first run, reference::firstSteps
+        bool smooth = true;  // without colliders
+    };
+    // It is made where it is needed, because it has copies of the scene's fields.
+    reference::Problem problemOf(const ExactMolecule& molecule) const;
     Drift driftOf(const ExactMolecule& molecule, const reference::State& end) const;
     double secondsOf(const ExactMolecule& molecule, double most) const;
     bool tooStiff(const ExactMolecule& molecule, double seconds);
@@ -88,12 +110,13 @@ class ExactEnds {
     void keep(std::vector<reference::Solution>& solutions);
     std::string nameOf(const ExactMolecule& molecule) const;
 
+    const Scene& scene_;
+    std::vector<ExactGroup> groups_;  // as the plan has them
     std::vector<ExactMolecule> molecules_;
     double duration_;
     int cores_;
     double secondsPerStep_ = 0, tolerance_ = 1e30, error_ = 1e30;
     std::string why_;
-    std::vector<std::string> names_;  // of the groups
 };
 
 }  // namespace shoal::measure

@@ -82,67 +82,41 @@ class Search {
         run.searched = !run.refused.empty();
         if (run.searched)
             run.candidate.why = concat("refused: ", run.refused);
-        else if (!reference_)
-            solveReference(*run.few);
+        else if (!sample_)
+            solveSample(run);
     }
 
     // Where the ends of more than one of a hundred molecules are not known over the whole time, over a
     // shorter one.
-    void solveReference(MethodRunner& runner) {
-        runner.restart();
-        const std::vector<Snapshot> starts = runner.snapshots();
+    void solveSample(Run& run) {
+        run.all = std::make_unique<MethodRunner>(all_, run.method, device_);
+        run.all->set(run.few->step());
         for (const int least = std::max(1, frames_ / 8);; frames_ = std::max(least, frames_ / 2)) {
-            tell(concat("solving the reference over ", frames_ / few_.frameRate, " s"));
-            reference_ =
-                std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
-                                            frames_ / few_.frameRate, device_.cores, options_.molecules);
-            const Settled settled = reference_->solve(
-                0.01 * options_.error,
-                reference_->secondsEach(0.5 * limit_.left(readying), MoleculeSample::referenceSeconds));
+            tell(concat("solving a sample of up to ", sampleMolecules, " molecules a group over ",
+                        frames_ / few_.frameRate, " s"));
             const bool last = frames_ == least || late(readying);
-            if (settled == Settled::yes ||
-                (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error)) {
-                tell(concat("solving a sample of up to ", sampleMolecules, " molecules a group over ",
-                            frames_ / few_.frameRate, " s"));
-                // in half of the time that is left, so that a shorter motion has some
-                const double share =
-                    last || !options_.seconds
-                        ? readying
-                        : 1 - (limit_.left() - 0.5 * limit_.left(readying)) / *options_.seconds;
-                sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_,
-                                                           device_, limit_.part(share));
-                sample_->settle();
-                if (sample_->settled()) return;
-                hurried_ = hurried_ || sample_->outOfTime();
-                if (last) refuseUnsettled();
-            } else if (last) {
-                refuseWithoutReference(settled);
-            }
+            // in half of the time that is left, so that a shorter motion has some
+            const double share = last || !options_.seconds
+                                     ? readying
+                                     : 1 - (limit_.left() - 0.5 * limit_.left(readying)) / *options_.seconds;
+            sample_ = std::make_unique<MoleculeSample>(all_, *run.all, options_.error, frames_,
+                                                       options_.molecules, device_, limit_.part(share));
+            sample_->settle();
+            if (sample_->settled()) return;
+            hurried_ = hurried_ || sample_->outOfTime();
+            if (last) refuseUnsettled();
         }
     }
 
     [[noreturn]] void refuseUnsettled() const {
         if (hurried_) refuseForTime(nullptr);
-        if (sample_->molecules() == 0)
-            throw Error(place_,
-                        concat("--error ", options_.error,
-                               " cannot be claimed: no method that takes short steps runs this scene"));
+        if (!sample_->hasReference())
+            throw Error(place_, concat("--error: no error can be given: ", sample_->why()));
         throw Error(place_, concat("--error ", options_.error, " cannot be claimed: the ends of ",
                                    sample_->unsettled(), " of ", sample_->molecules(),
                                    " molecules still change when the step is halved, after ",
                                    frames_ / few_.frameRate,
                                    " s of motion that is chaotic, or finer than single floats tell"));
-    }
-
-    [[noreturn]] void refuseWithoutReference(Settled settled) const {
-        if (settled != Settled::chaotic && late(readying)) refuseForTime(nullptr);
-        std::string what = "the motion is chaotic, so that no error can be given";
-        if (settled == Settled::tooStiff)
-            what = concat("the scene is too stiff for a reference in ", MoleculeSample::referenceSeconds,
-                          " s, so that no error can be given");
-        if (settled == Settled::roughly)
-            what = concat("no reference is near enough to tell an error of ", options_.error);
-        throw Error(place_, concat("--error: ", what, ": ", reference_->why()));
     }
 
     // Cheapest substeps first, so that the dear ones have a good bound to beat.
@@ -252,8 +226,8 @@ class Search {
         run.few->set({substeps, 1});
         run.few->run(frames_);
         const std::vector<Snapshot> ends = run.few->snapshots();
-        const double error = ExactEnds::finite(ends) ? reference_->errorOf(ends).total
-                                                     : std::numeric_limits<double>::infinity();
+        const double error =
+            ExactEnds::finite(ends) ? sample_->errorOfFew(ends) : std::numeric_limits<double>::infinity();
         Candidate& candidate = run.candidate;
         if (std::isfinite(error) && (!candidate.error || error < *candidate.error)) {
             candidate.error = error;
@@ -370,7 +344,6 @@ class Search {
     Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
     bool hurried_ = false;  // a longer motion had no time
-    std::unique_ptr<ExactEnds> reference_;
     std::unique_ptr<MoleculeSample> sample_;
     std::vector<Step> ladder_;
     std::vector<Run> runs_;

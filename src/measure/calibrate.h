@@ -17,27 +17,13 @@
 
 #include "compile/plan.h"
 #include "core/json.h"
-#include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
-#include "measure/timing.h"
+#include "measure/sample.h"
 
 namespace shoal::measure {
 
 // Molecules of each group: if one of a hundred fails, so many show it with a probability of 95 %.
 constexpr int sampleMolecules = 300;
-
-// The errors of a method over the sample. An error is relative: accuracy_reference.h.
-struct SampleError {
-    double rms = 0, worst = 0;  // of the molecules whose error is known
-    int molecules = 0;          // all of the sample
-    int above = 0;              // of them, above the error wanted
-    // Of them, not known to be below or above it: chaotic, finer than floats tell, too stiff, or no time was
-    // left for their reference.
-    int unknown = 0;
-
-    // Known to be below the error for 99 of 100 molecules, and in the RMS; ten times that for none.
-    bool holds(double error) const;
-};
 
 struct CalibrationOptions {
     double error = 1e-3;  // relative: see accuracy_reference.h
@@ -101,63 +87,5 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
 void keepCalibration(const std::string& folder, const std::string& key, const Calibration& calibration);
 
 JsonValue asJson(const Calibration& calibration);
-
-// Where the molecules of a sample ought to end: the first ones by the double-precision reference, the others
-// by a method on the device whose step has been halved until their ends stay where they are. So an error can
-// be claimed of hundreds of molecules, of which a few may do what no other does.
-class MoleculeSample {
-  public:
-    static constexpr double referenceSeconds = 3;  // a molecule
-
-    // `error`: what is wanted; `core`: of the first molecules of the scene's groups. Borrows all of them.
-    // `limit`: what is not settled by then stays so.
-    MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
-                   const AccuracyDevice& device, TimeLimit limit);
-
-    // Finds the method that the others are held against. What it does not settle has the reference, as far as
-    // time allows.
-    void settle();
-    // All but one of a hundred.
-    bool settled() const { return !molecules_.empty() && 100 * unsettled() <= molecules(); }
-    bool outOfTime() const { return outOfTime_; }  // rather than out of ways
-    int unsettled() const;
-    int molecules() const { return int(molecules_.size()); }
-    // "4 by the reference, 296 by leapfrog with 128 substeps"
-    std::string how() const;
-
-    // A molecule that comes out far off is held against the reference, where these are few.
-    SampleError errorOf(const std::vector<Snapshot>& ends);
-
-  private:
-    static constexpr double unknownChange = 1e30;
-    struct SampledMolecule {
-        size_t group = 0;
-        int index = 0;                     // in the group
-        double size = 1;                   // m
-        double change = unknownChange;     // of its end when the step was halved; 0: the reference has it
-        const ExactEnds* exact = nullptr;  // the reference that has it,
-        size_t place = 0;                  // and where among its molecules
-        bool asked = false;                // for a reference of its own, which it has or cannot have
-        bool given() const { return exact != nullptr || asked; }
-    };
-    bool settleBy(SolverKind kind);
-    std::vector<double> distances(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) const;
-    void ask(SampledMolecule& molecule);
-    bool settled(const SampledMolecule& molecule) const;
-
-    const Scene& scene_;
-    double error_;
-    int frames_;
-    const ExactEnds& core_;
-    const AccuracyDevice& device_;
-    TimeLimit limit_;
-    std::unique_ptr<MethodRunner> runner_;  // whose plan and starts the references are of
-    std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
-    std::string by_;
-    std::vector<SampledMolecule> molecules_;
-    std::vector<std::unique_ptr<ExactEnds>> own_;  // references of single molecules
-    int asked_ = 0;
-    bool outOfTime_ = false;
-};
 
 }  // namespace shoal::measure

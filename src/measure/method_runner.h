@@ -63,6 +63,8 @@ class MethodRunner {
     // Error: the path, the driver or the device's memory refuses the method.
     void set(Step step);
 
+    const Step& step() const { return step_; }  // that is set
+
     void restart() { simulation_->restart(); }
     void frame() { simulation_->frame(); }  // 1 / (frameRate * split) seconds
     void finish() const;                    // waits until the frames are done
@@ -99,11 +101,11 @@ FrameCost frameCost(MethodRunner& runner);
 struct SmallestError {
     double error = std::numeric_limits<double>::infinity();
     int since = 0;  // steps that did not better it
-    // With the error of a finer step: whether it is below 0.1, and three finer steps did not better it.
+    // With the error of a finer step: whether it is below 0.01, and three finer steps did not better it.
     bool isPassedBy(double finer) {
         since = finer < 0.95 * error ? 0 : since + 1;
         error = std::min(error, finer);
-        return since >= 3 && error < 0.1;
+        return since >= 3 && error < 0.01;
     }
 };
 

@@ -141,6 +141,14 @@ static bool stalled(const std::vector<double>& changes) {
 
 namespace {
 
+// Whether so many more halvings leave a change above the tolerance if they go on as the last three did.
+bool falls(const std::vector<double>& changes, double tolerance, double halvings) {
+    constexpr size_t some = 3;
+    if (changes.size() <= some) return true;
+    const double last = changes.back(), before = changes[changes.size() - 1 - some];
+    return last * std::pow(last / before, halvings / some) <= tolerance;
+}
+
 class Halving {
   public:
     Halving(const Problem& problem, const State& start, double duration, double seconds)
@@ -168,7 +176,9 @@ class Halving {
         for (int i = 0; i < halvings; ++i) {
             if (stalled(changes)) return Ended::stalled;
             if (unsettled >= 5) return Ended::unsettled;
-            if (2 * secondsOfRun_ > deadline_.left()) return Ended::outOfTime;
+            // n halvings take 2 + 4 + ... + 2^n times as long as the last run
+            const double more = std::floor(std::log2(deadline_.left() / secondsOfRun_ / 2 + 1));
+            if (more < 1 || !falls(changes, tolerance, more)) return Ended::outOfTime;
             const State coarse = out_.state;
             const ContactRun finer = next(steps *= 2);
             if (!finite(finer.state)) return Ended::notFinite;

@@ -98,6 +98,7 @@ TEST_CASE("info names each context and why one is missing", "[cli]") {
         runShoal({"info", "--json"}, {.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}});
     const JsonValue report = outcome.json();
     CHECK_FALSE(member(report, "version").text.empty());
+    CHECK_FALSE(member(report, "commit").text.empty());
     const std::vector<JsonValue>& contexts = member(report, "contexts").items;
     REQUIRE(contexts.size() == 3);
     bool any = false;

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "app/line/commands.h"
+#include "app/line/commit.h"
 #include "core/json_build.h"
 #include "gpu/context.h"
 
@@ -81,7 +82,8 @@ int infoCommand(const Options& options) {
     if (options.context != gpu::ContextKind::automatic)
         std::erase_if(probes, [&](const gpu::ContextProbe& probe) { return probe.kind != options.context; });
     if (options.json)
-        std::cout << writeJson(object(key("version", SHOAL_VERSION), key("contexts", arrayOf(probes, asJson)),
+        std::cout << writeJson(object(key("version", SHOAL_VERSION), key("commit", commit()),
+                                      key("contexts", arrayOf(probes, asJson)),
                                       key("devices", arrayOf(devices, asJson))));
     else {
         std::for_each(probes.begin(), probes.end(), printProbe);
