@@ -155,6 +155,10 @@ std::optional<size_t> fastestByPlace(const std::vector<Force>& forces, const std
 
 }  // namespace
 
+bool isRigidWithin(const GroupPlan& group, double step) {
+    return group.solidFrequency * step > 1 && solver(group.solver).implicit;
+}
+
 std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group, double step) {
     if (!group.fastestForce) return {};
     const Force& force = forces[*group.fastestForce];
@@ -208,8 +212,7 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
     }
     out.stableStep = solver(out.solver).longestStep(analysis);
     out.solidFrequency = solidFrequency(analysis);
-    // every deformation is over within a step
-    out.rigid = out.solidFrequency * step > 1 && shoal::solver(out.solver).implicit;
+    out.rigid = isRigidWithin(out, step);
     checkStep(scene, group, out);
     checkStrain(scene, group, plan, out);
     checkBody(scene, group, plan, out);

@@ -27,6 +27,10 @@ namespace shoal {
 // long for a force, which no solver takes implicitly.
 void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan& out);
 
+// Whether every deformation of the group's molecules is over within a step (s), so that contact treats them
+// as bodies: GroupPlan::rigid, for another step than the plan's.
+bool isRigidWithin(const GroupPlan& group, double step);
+
 // "the force \"drain\" (vortexLine) turns \"dust\" by up to 1000 rad/s: ..." where the substep (s) is too
 // long for it; else empty.
 std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group, double step);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compile/choose_solver.h"
 #include "gpu/gl.h"
 #include "scene/field_kinds.h"
 
@@ -66,14 +67,26 @@ std::string MethodRunner::refusal(Step step) const {
 }
 
 void MethodRunner::set(Step step) {
-    if (!simulation_) {
+    const double substep = 1 / (scene_.frameRate * step.perFrame());
+    const auto fits = [&](const std::unique_ptr<Simulation>& simulation) {
+        const std::vector<GroupPlan>& groups = simulation->plan().groups;
+        return std::all_of(groups.begin(), groups.end(), [&](const GroupPlan& group) {
+            return group.rigid == isRigidWithin(group, substep);
+        });
+    };
+    const auto known = std::find_if(simulations_.begin(), simulations_.end(), fits);
+    if (known == simulations_.end()) {
         SimulationOptions options;
         options.drawn = false;
         options.path = device_.path;
         options.lanes = device_.lanes;
         options.inPlace = device_.inPlace;
         options.watchdog = false;  // what blows up is an outcome here
-        simulation_ = std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)), options);
+        simulations_.push_back(
+            std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)), options));
+        simulation_ = simulations_.back().get();
+    } else {
+        simulation_ = known->get();
     }
     step_ = step;
     simulation_->parameters.substeps = step.substeps;

@@ -59,7 +59,8 @@ class MethodRunner {
 
     // Why the method cannot take this step; empty: it can.
     std::string refusal(Step step) const;
-    // Takes a step that is not refused; the first one makes the simulation.
+    // Takes a step that is not refused. The first one makes a simulation, and so does one within which stiff
+    // molecules are no bodies any more, or are again.
     // Error: the path, the driver or the device's memory refuses the method.
     void set(Step step);
 
@@ -87,7 +88,9 @@ class MethodRunner {
     Method method_;
     AccuracyDevice device_;
     Step step_;
-    std::unique_ptr<Simulation> simulation_;
+    // One for each way in which contact treats the molecules, which follows from the step.
+    std::vector<std::unique_ptr<Simulation>> simulations_;
+    Simulation* simulation_ = nullptr;  // of the step that is set
 };
 
 // A frame of so many substeps takes about base + each * substeps.

@@ -7,9 +7,11 @@
 #include "core/random.h"
 #include "gl/gl_test.h"
 #include "measure/calibrate.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/scratch.h"
+#include "support/shapes.h"
 
 namespace shoal {
 
@@ -157,6 +159,32 @@ TEST_CASE("what --error claims of random scenes", "[.claims-table]") {
             }
             std::fflush(stdout);
         }
+}
+
+TEST_CASE("a step is measured as a run takes it, whatever was measured before", "[claims]") {
+    // contact treats it as a body within a frame, and not within a 64th of it
+    Scene scene;
+    scene.frameRate = 5;
+    scene.gravity = {0, -9.81, 0};
+    scene.colliders.push_back({.shape = PlaneCollider{{0, -1, 0}, {0, 1, 0}}, .restitution = 0.5});
+    Group& group = scene.groups.emplace_back();
+    group.molecule = leaf(1e4, 5);
+    group.count = 1;
+    group.velocity = {0.3, -3, 0};
+    const AccuracyDevice device{.context = &testContext(), .path = testPath()};
+    const Method method{SolverKind::bdf2Xpbd, FieldSampling::vertexSubstep};
+    const auto endAfter = [&](const std::vector<int>& steps) {
+        MethodRunner runner(scene, method, device);
+        for (const int substeps : steps) {
+            runner.set({substeps, 1});
+            runner.run(2);
+        }
+        return runner.snapshots().front().positions;
+    };
+    const std::vector<glm::dvec3> fine = endAfter({64});
+    CHECK(endAfter({1, 64}) == fine);
+    CHECK(endAfter({1, 64, 1}) == endAfter({1}));
+    CHECK(endAfter({1}) != fine);
 }
 
 }  // namespace shoal
