@@ -12,6 +12,17 @@
 
 namespace shoal::measure {
 
+// A molecule of the group, of this scale and with this phase of its muscles (rad), with gravity and its
+// springs alone: what its energy takes. Borrows the group's molecule.
+reference::Problem springsOf(const Scene& scene, const Group& group, double scale, double phase);
+// Likewise, with all that acts on it. Error, located: something does that the reference does not know.
+reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase);
+// s of the clock that one step of its first run takes, from the start on.
+double secondsOfStep(const reference::Problem& problem, const reference::State& start, double duration);
+// Names something that the motion depends on and the reference does not know; empty: it knows all. Beside
+// what problemOf() refuses, contact between molecules and pins that are released.
+std::string beyondReference(const Scene& scene);
+
 // Distances from the reference over the molecule's size, as reference::deviation has them; RMS over the
 // molecules of all groups. total^2 = centroid^2 + shape^2.
 struct ErrorParts {

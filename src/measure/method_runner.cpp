@@ -36,6 +36,16 @@ std::string name(const Method& method) {
     return concat(name(method.solver), ", ", name(method.sampling));
 }
 
+SimulationOptions simulationOptions(const AccuracyDevice& device) {
+    SimulationOptions out;
+    out.drawn = false;
+    out.path = device.path;
+    out.lanes = device.lanes;
+    out.inPlace = device.inPlace;
+    out.watchdog = false;  // what blows up is an outcome here
+    return out;
+}
+
 Scene withMolecules(Scene scene, int most) {
     for (Group& group : scene.groups) {
         group.count = std::min(group.count, most);
@@ -76,14 +86,8 @@ void MethodRunner::set(Step step) {
     };
     const auto known = std::find_if(simulations_.begin(), simulations_.end(), fits);
     if (known == simulations_.end()) {
-        SimulationOptions options;
-        options.drawn = false;
-        options.path = device_.path;
-        options.lanes = device_.lanes;
-        options.inPlace = device_.inPlace;
-        options.watchdog = false;  // what blows up is an outcome here
-        simulations_.push_back(
-            std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)), options));
+        simulations_.push_back(std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)),
+                                                            simulationOptions(device_)));
         simulation_ = simulations_.back().get();
     } else {
         simulation_ = known->get();

@@ -50,6 +50,8 @@ struct AccuracyDevice {
     bool inPlace = false;
 };
 
+SimulationOptions simulationOptions(const AccuracyDevice& device);  // nothing is drawn, no watchdog
+
 // The scene with at most so many molecules of each group, pins that are never released.
 Scene withMolecules(Scene scene, int most);
 

@@ -316,3 +316,89 @@ TEST_CASE("measure refuses what it cannot do", "[cli]") {
     refusal({"measure", squaresScene(), "--error", "0"}, "--error: expected a relative error above 0");
     refusal({"measure", "missing.scene.json"}, "missing.scene.json");
 }
+
+TEST_CASE("measure --statistics reports as text, JSON and CSV", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    const Words words = {"measure",        scene,        "--statistics", "--seeds", "4",
+                         "--duration",     "0.2",        "--molecules",  "3",       "--solvers",
+                         "leapfrog,euler", "--substeps", "8,2"};
+    Words asJson = words;
+    asJson.insert(asJson.end(), {"--json", "--csv", scratch.path("statistics.csv")});
+    const Outcome outcome = runShoal(asJson, cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    CHECK_FALSE(member(member(report, "machine"), "processor").text.empty());
+    CHECK_FALSE(member(member(report, "context"), "renderer").text.empty());
+    CHECK(member(report, "seeds").number == 4);
+    CHECK(member(report, "displaced").number == 0);
+    CHECK(member(member(report, "reference"), "precision").text == "double");
+    CHECK(member(member(report, "reference"), "converged").boolean);
+    CHECK(member(member(report, "groups").items.at(0), "molecules").number == 3);
+    const std::vector<JsonValue>& methods = member(report, "methods").items;
+    REQUIRE(methods.size() == 4);
+    size_t rows = 0;
+    for (const JsonValue& method : methods) {
+        CHECK(member(method, "outcome").text == "measured");
+        const std::vector<JsonValue>& statistics = member(method, "statistics").items;
+        rows += statistics.size();
+        double worst = 0;
+        for (const JsonValue& statistic : statistics) {
+            worst = std::max(worst, member(member(statistic, "relative"), "mean").number);
+            CHECK(member(member(statistic, "difference"), "mean").number ==
+                  Approx(member(member(statistic, "value"), "mean").number -
+                         member(member(statistic, "reference"), "mean").number)
+                      .margin(1e-6));
+        }
+        CHECK(member(member(member(method, "worst"), "relative"), "mean").number == worst);
+        CHECK(member(method, "within").number >= worst);
+    }
+    CHECK(member(methods[0], "solver").text == "leapfrog");
+    CHECK(member(methods[1], "substeps").number == 2);
+    // of order 1, with a quarter of the substeps
+    CHECK(member(methods[3], "within").number > 2 * member(methods[0], "within").number);
+    const std::string csv = readFile(scratch.path("statistics.csv"));
+    CHECK(size_t(std::count(csv.begin(), csv.end(), '\n')) == rows + 1);
+    CHECK(csv.rfind("solver,substeps,group,quantity,unit,statistic,reference,", 0) == 0);
+
+    const Outcome told = runShoal(words, cacheIn(scratch));
+    REQUIRE(told.code == 0);
+    CHECK_THAT(told.out, Catch::Contains("seeds 1 to 4") &&
+                             Catch::Contains("in double precision on the CPU") &&
+                             Catch::Contains("height, m, 95 %") && Catch::Contains("polarisation, mean") &&
+                             Catch::Contains("euler with 2 substeps: statistics off by up to ") &&
+                             Catch::Contains("a claim takes 30 and more"));
+    const Outcome hurried =
+        runShoal({"measure", scene, "--statistics", "--seconds", "0.001", "--json"}, cacheIn(scratch));
+    REQUIRE(hurried.code == 0);
+    CHECK(member(hurried.json(), "seeds").number == 2);
+    CHECK_THAT(member(hurried.json(), "notes").items.at(0).text,
+               Catch::Contains("--seconds 0.001 is too short for all of it: 2 of 32 seeds"));
+}
+
+TEST_CASE("measure --statistics refuses what it cannot do", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    refusal({"measure", scene, "--statistics", "--seeds", "1"},
+            "--seeds: expected a whole number from 2 to 10000, found \"1\"");
+    refusal({"measure", scene, "--seeds", "4"}, "--seeds requires --statistics");
+    refusal({"measure", scene, "--substeps", "4"}, "--substeps requires --statistics");
+    refusal({"measure", scene, "--statistics", "--substeps", "0"},
+            "--substeps: expected a whole number from 1 to 1000, found \"0\"");
+    refusal({"measure", scene, "--statistics", "--error", "1e-3"}, "--error");
+    refusal({"measure", scene, "--statistics", "--all"}, "--all");
+    refusal({"measure", scene, "--statistic"}, "--statistic");
+    std::string quad = readFile(sourceFile("molecules/quad.json"));
+    for (size_t i = quad.find("\"position\""); i != std::string::npos; i = quad.find("\"position\"", i + 30))
+        quad.insert(i, "\"pinned\": true, ");
+    scratch.write("still.json", quad);
+    const std::string still = scratch.write("still.scene.json", R"({
+  "format": "shoal-scene-1", "gravity": [0, -9.81, 0],
+  "groups": [{"molecule": "still.json", "count": 4,
+    "place": {"on": "volume", "box": {"low": [-1, 0, -1], "high": [1, 1, 1]}}}]
+})");
+    CHECK_THAT(
+        refusal({"measure", still, "--statistics"}, "nothing in the scene moves: it has no statistics"),
+        Catch::Contains("still.scene.json"));
+}

@@ -166,7 +166,8 @@ TEST_CASE("a step is measured as a run takes it, whatever was measured before", 
     Scene scene;
     scene.frameRate = 5;
     scene.gravity = {0, -9.81, 0};
-    scene.colliders.push_back({.shape = PlaneCollider{{0, -1, 0}, {0, 1, 0}}, .restitution = 0.5});
+    scene.colliders.push_back(
+        {.name = "floor", .shape = PlaneCollider{{0, -1, 0}, {0, 1, 0}}, .restitution = 0.5});
     Group& group = scene.groups.emplace_back();
     group.molecule = leaf(1e4, 5);
     group.count = 1;

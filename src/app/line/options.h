@@ -95,7 +95,10 @@ struct Options : RunRequest {
     std::vector<SolverKind> solvers;       // empty: all
     std::vector<FieldSampling> samplings;  // empty: all that differ
     double duration = 1;                   // s of simulated time
-    int molecules = 8;                     // of each group, whose error is measured
+    std::optional<int> molecules;          // of each group, whose error is measured
+    bool statistics = false;               // of runs by many seeds, in place of errors
+    int seeds = 32;                        // of these
+    std::vector<int> eachSubsteps;         // of these; empty: the scene's
     std::string csv;                       // a file
     std::string report;                    // bench: a file
 

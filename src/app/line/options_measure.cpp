@@ -113,14 +113,27 @@ void addMeasure(CLI::App& command, Options& options) {
     addNumber(command, "--duration", options.duration, "Simulated seconds after which the error is taken",
               "a time above 0, at most 100 s", [](double s) { return s > 0 && s <= 100; })
         ->capture_default_str();
-    addWhole(command, "--molecules", options.molecules, "Molecules of each group whose error is measured", 1,
-             1024)
+    addWhole(command, "--molecules", options.molecules,
+             "Molecules of each group that the reference in double precision has (default 8; with "
+             "--statistics as many as a minute allows, at most 64)",
+             1, 1024);
+    command.add_flag(
+        "--statistics", options.statistics,
+        "Means and quantiles over many seeds against a reference's, for scenes where paths part");
+    addWhole(command, "--seeds", options.seeds, "With --statistics: runs, each by a seed of its own", 2,
+             10000)
         ->capture_default_str();
+    addWhole(command, "--substeps", options.eachSubsteps,
+             "With --statistics: substeps of a frame, such as 4,16, instead of the scene's", 1, maxSubsteps)
+        ->delimiter(',');
+    needs(command, "--seeds", "--statistics");
+    needs(command, "--substeps", "--statistics");
     addSeconds(command, options,
                "About how long all of it may take, beside compiling; leaves out what is dearest");
     section(command, reports);
     command.add_flag("--all", options.all, "Every point as text, not only the best ones");
-    addFile(command, "--csv", options.csv, "Every point as a row of this file");
+    addFile(command, "--csv", options.csv, "Every point, or statistic, as a row of this file");
+    excludes(command, "--statistics", {"--error", "--samplings", "--all"});
     section(command, ofScene);
     addCountAndSeed(command, options);
     addPath(command, options);

@@ -52,10 +52,10 @@ class Bar {
 
 AccuracyOptions accuracyOptions(const Options& options) {
     AccuracyOptions out{.duration = options.duration,
-                        .molecules = options.molecules,
                         .solvers = options.solvers,
                         .samplings = options.samplings,
                         .seconds = options.seconds};
+    out.molecules = options.molecules.value_or(out.molecules);
     out.enough = options.error.value_or(out.enough);
     return out;
 }
@@ -145,6 +145,7 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
 }
 
 int measureCommand(const Options& options) {
+    if (options.statistics) return statisticsCommand(options);
     // known before the measuring, not after it
     if (!options.csv.empty()) checkWritable(options.csv);
     const Scene scene = readScene(options.files.front(), options);

@@ -29,6 +29,7 @@ const measure::AccuracyPoint* chosenPoint(const MeasureReport& report);
 // The best methods at the end, and before them every point if `all`, or if nothing has an error.
 std::string asText(const MeasureReport& report, bool all);
 JsonValue asJson(const MeasureReport& report);
+JsonValue firstKeys(const bench::MeasuredOn& machine);  // the first keys of what measure reports
 // A row a point; the first names the columns.
 std::string asCsv(const MeasureReport& report);
 
@@ -42,6 +43,9 @@ measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& con
 
 // For --error: finds the method, puts it into the scene and compiles that; warnings go to standard error.
 measure::Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded);
+
+// `shoal measure --statistics`.
+int statisticsCommand(const Options& options);
 
 // Chooses and sweeps, with progress on standard error.
 MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);

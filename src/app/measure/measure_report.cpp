@@ -242,19 +242,21 @@ std::string asText(const MeasureReport& report, bool all) {
     return out.str();
 }
 
+JsonValue firstKeys(const bench::MeasuredOn& machine) {
+    return object(key("version", machine.version), key("commit", commit()), key("date", today()),
+                  key("machine", object(key("processor", machine.processor), key("cores", machine.cores))),
+                  key("context", bench::asJson(machine.context)));
+}
+
 JsonValue asJson(const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
     const auto orNull = [](const std::string& text) { return text.empty() ? JsonValue() : toJson(text); };
-    JsonValue out = object(
-        key("version", SHOAL_VERSION), key("commit", commit()), key("date", today()),
-        key("machine",
-            object(key("processor", report.machine.processor), key("cores", report.machine.cores))),
-        key("context", bench::asJson(report.machine.context)), key("scene", a.scene),
-        key("path", name(a.path)), key("frameRate", a.frameRate), key("duration", a.duration),
-        key("seconds", a.seconds), key("groups", arrayOf(a.groups, asJson)),
-        key("chaotic", orNull(a.chaotic)), key("tooStiff", orNull(a.tooStiff)),
-        key("referenceError", a.hasErrors() ? std::optional(a.referenceError) : std::nullopt),
-        key("target", report.target), key("chosen", report.chosen ? asJson(*report.chosen) : JsonValue()));
+    JsonValue out = firstKeys(report.machine);
+    append(out, key("scene", a.scene), key("path", name(a.path)), key("frameRate", a.frameRate),
+           key("duration", a.duration), key("seconds", a.seconds), key("groups", arrayOf(a.groups, asJson)),
+           key("chaotic", orNull(a.chaotic)), key("tooStiff", orNull(a.tooStiff)),
+           key("referenceError", a.hasErrors() ? std::optional(a.referenceError) : std::nullopt),
+           key("target", report.target), key("chosen", report.chosen ? asJson(*report.chosen) : JsonValue()));
     if (!report.chosen) append(out, key("notChosen", report.notChosen));
     return append(out, key("notes", a.notes), key("points", arrayOf(a.points, asJson)));
 }
