@@ -372,4 +372,14 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     return text;
 }
 
+std::vector<TexelRun> texelRuns(size_t first, size_t count) {
+    std::vector<TexelRun> out;
+    constexpr size_t width = stateWidth;
+    for (size_t done = 0; done < count; done += size_t(out.back().width)) {
+        const size_t x = (first + done) % width;
+        out.push_back({int(x), int((first + done) / width), int(std::min(width - x, count - done)), done});
+    }
+    return out;
+}
+
 }  // namespace shoal

@@ -76,6 +76,12 @@ constexpr int stateWidth = 1024;  // texels of a row of state textures
 constexpr int stateRows(size_t texels) {
     return int((texels + stateWidth - 1) / stateWidth);
 }
+// Parts of rows that hold the texels from `first` on.
+struct TexelRun {
+    int x, y, width;
+    size_t offset;  // of the run's first texel, from `first`
+};
+std::vector<TexelRun> texelRuns(size_t first, size_t count);
 // Textures of so many numbered texels have rows of 2^n of them, and are as wide as high or half as high;
 // returns n.
 constexpr int rowBits(size_t numbers) {

@@ -43,6 +43,13 @@ static std::optional<std::pair<std::string, Location>> unknownTo(const Scene& sc
     return {};
 }
 
+std::optional<Warning> whyNoReference(const Scene& scene, const Group& group) {
+    const auto unknown = unknownTo(scene, group);
+    if (!unknown) return {};
+    return Warning{unknown->second,
+                   concat("the reference knows no ", unknown->first, ": nothing to measure against")};
+}
+
 std::string beyondReference(const Scene& scene) {
     for (const Group& group : scene.groups) {
         if (const auto unknown = unknownTo(scene, group)) return unknown->first;
@@ -65,9 +72,8 @@ reference::Problem springsOf(const Scene& scene, const Group& group, double scal
 }
 
 reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase) {
-    if (const auto unknown = unknownTo(scene, group))
-        throw Error(unknown->second,
-                    concat("the reference knows no ", unknown->first, ": nothing to measure against"));
+    if (const std::optional<Warning> why = whyNoReference(scene, group))
+        throw Error(why->location, why->message);
     reference::Problem out = springsOf(scene, group, scale, phase);
     out.drag = group.drag;
     out.fields = scene.fields;
@@ -288,17 +294,27 @@ double ExactEnds::errorOf(size_t molecule, const Snapshot& end) const {
     return reference::relativeError(stateOf(end, m.index), m.end, m.size);
 }
 
-Drift ExactEnds::driftOf(const ExactMolecule& molecule, const reference::State& end) const {
-    const reference::Problem p = problemOf(molecule);
-    const double mass = p.molecule->mass();
+// The E of Drift, J.
+static double energyScale(const reference::Problem& p, const reference::State& start,
+                          const reference::State& exact) {
     const auto moving = [&](const reference::State& state) {
         return reference::kineticEnergy(p, state) + reference::springEnergy(p, state);
     };
-    const double energyScale = std::max(
-        {moving(molecule.start), moving(molecule.end), mass * glm::length(p.gravity) * molecule.size});
-    const double momentumScale = std::sqrt(2 * mass * energyScale);
+    return std::max({moving(start), moving(exact), p.molecule->mass() * glm::length(p.gravity) * p.size()});
+}
+
+double energyGain(const reference::Problem& problem, const reference::State& start,
+                  const reference::State& exact, const reference::State& end) {
+    return ratio(reference::energy(problem, end) - reference::energy(problem, exact),
+                 energyScale(problem, start, exact));
+}
+
+Drift ExactEnds::driftOf(const ExactMolecule& molecule, const reference::State& end) const {
+    const reference::Problem p = problemOf(molecule);
+    const double momentumScale =
+        std::sqrt(2 * p.molecule->mass() * energyScale(p, molecule.start, molecule.end));
     return {
-        ratio(std::abs(reference::energy(p, end) - reference::energy(p, molecule.end)), energyScale),
+        std::abs(energyGain(p, molecule.start, molecule.end, end)),
         ratio(glm::length(reference::momentum(p, end) - reference::momentum(p, molecule.end)), momentumScale),
         ratio(glm::length(ownAngularMomentum(p, end) - ownAngularMomentum(p, molecule.end)),
               momentumScale * molecule.size)};

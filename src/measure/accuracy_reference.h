@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compile/plan.h"
+#include "core/error.h"
 #include "measure/timing.h"
 #include "reference/solve.h"
 #include "simulate/simulation.h"
@@ -15,7 +16,9 @@ namespace shoal::measure {
 // A molecule of the group, of this scale and with this phase of its muscles (rad), with gravity and its
 // springs alone: what its energy takes. Borrows the group's molecule.
 reference::Problem springsOf(const Scene& scene, const Group& group, double scale, double phase);
-// Likewise, with all that acts on it. Error, located: something does that the reference does not know.
+// Why the reference does not know how a molecule of the group moves by itself, located; nothing: it does.
+std::optional<Warning> whyNoReference(const Scene& scene, const Group& group);
+// The molecule with all that acts on it. Error: whyNoReference.
 reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase);
 // s of the clock that one step of its first run takes, from the start on.
 double secondsOfStep(const reference::Problem& problem, const reference::State& start, double duration);
@@ -41,6 +44,10 @@ struct ErrorParts {
 struct Drift {
     double energy = 0, momentum = 0, angularMomentum = 0;
 };
+
+// Energy of the end less that of the reference's, over the E above.
+double energyGain(const reference::Problem& problem, const reference::State& start,
+                  const reference::State& exact, const reference::State& end);
 
 enum class Settled {
     yes,

@@ -114,11 +114,14 @@ void bindSimulation(py::module_& m) {
     const auto group = py::arg("group") = py::none();
     py::class_<PySimulation>(m, "Simulation", "A scene that moves, on the GPU.")
         .def(py::init<const PyScene&, const std::optional<std::string>&, std::optional<int>,
-                      std::optional<int>, const std::string&>(),
+                      std::optional<int>, const std::string&, bool>(),
              py::arg("scene"), py::kw_only(), py::arg("solver") = py::none(),
              py::arg("substeps") = py::none(), py::arg("device") = py::none(), py::arg("path") = "auto",
+             py::arg("diagnostics") = true,
              "`solver`: by its name, and `substeps` of a frame: None: as the scene says; `device`: of those "
-             "that `shoal info` lists, None: the best; `path`: auto, fused, fragments or ping-pong.")
+             "that `shoal info` lists, None: the best; `path`: auto, fused, fragments or ping-pong; "
+             "`diagnostics`: step() reads for "
+             "diagnostics() now and then.")
         .def("step", &PySimulation::step, py::arg("frames") = 1, Unlocked(),
              "Goes on by so many frames, each of parameters.frame_time (s).")
         .def("restart", &PySimulation::restart, Unlocked(),
@@ -151,6 +154,9 @@ void bindSimulation(py::module_& m) {
              "3).")
         .def("energy", &PySimulation::energy, group,
              "Energies in J of all that live: kinetic, elastic (of the springs), gravity.")
+        .def("diagnostics", &PySimulation::diagnostics,
+             "What the run tells of itself, as a dict: strain, contacts, and an estimate of its error, with "
+             "None for what is not known.")
         .def("picture", &PySimulation::picture, py::arg("width") = 640, py::arg("height") = 360,
              py::kw_only(), py::arg("eye") = py::none(), py::arg("target") = py::none(),
              py::arg("field_of_view") = py::none(),

@@ -1,6 +1,7 @@
 #include "python/simulation.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -114,7 +115,8 @@ static void warn(const std::string& words) {
 }
 
 PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string>& solver,
-                           std::optional<int> substeps, std::optional<int> device, const std::string& path)
+                           std::optional<int> substeps, std::optional<int> device, const std::string& path,
+                           bool diagnostics)
     : scene_(scene.scene) {
     if (solver) scene_.solver.kind = solverOf(*solver);
     if (substeps) scene_.solver.substeps = *substeps;
@@ -127,6 +129,7 @@ PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string
         SimulationOptions options;
         options.path = wanted;
         simulation_ = std::make_unique<Simulation>(device_->context, compile(scene_), options);
+        if (diagnostics) diagnostics_ = std::make_unique<measure::Diagnostics>(scene_, *simulation_);
     }
     substeps_ = simulation_->parameters.substeps;
     for (const Warning& warning : simulation_->warnings())
@@ -138,6 +141,7 @@ PySimulation::~PySimulation() {
         close();
     } catch (const Error&) {
         // Collected in another thread, where its context cannot be current: what it holds there stays.
+        (void)diagnostics_.release();
         (void)renderer_.release();
         (void)simulation_.release();
     }
@@ -155,8 +159,10 @@ void PySimulation::step(int frames) {
     if (frames < 0) throw Error("step() takes 0 frames or more, not ", frames);
     Simulation& simulation = use();
     SignalWatch watch;
+    if (diagnostics_) diagnostics_->follow();
     for (int i = 0; i < frames; ++i) {
         simulation.frame();
+        if (diagnostics_) diagnostics_->follow();
         watch.look();
     }
     simulation.check();
@@ -164,6 +170,7 @@ void PySimulation::step(int frames) {
 
 void PySimulation::close() {
     if (simulation_) enter(*device_);
+    diagnostics_.reset();
     renderer_.reset();
     simulation_.reset();
 }
@@ -203,6 +210,7 @@ void PySimulation::setState(const py::object& group, const std::optional<Array>&
     }
     saved.step = 0;  // solvers with history start anew
     simulation.load(saved);
+    if (diagnostics_) diagnostics_->forget();
 }
 
 py::dict PySimulation::energy(const py::object& group) {
@@ -233,6 +241,36 @@ py::dict PySimulation::energy(const py::object& group) {
     out["kinetic"] = kinetic;
     out["elastic"] = elastic;
     out["gravity"] = gravity;
+    return out;
+}
+
+// "rmsStrain" becomes "rms_strain".
+static std::string pythonName(const std::string& name) {
+    std::string out;
+    for (const char c : name) {
+        if (c >= 'A' && c <= 'Z') out += '_';
+        out += char(std::tolower(c));
+    }
+    return out;
+}
+
+py::dict PySimulation::diagnostics() {
+    use();
+    if (!diagnostics_) throw Error("the simulation was made with diagnostics=False");
+    constexpr double seconds = 0.1;
+    {
+        const py::gil_scoped_release release;
+        diagnostics_->finish(seconds);
+    }
+    py::dict out;
+    for (const JsonMember& each : asJson(*diagnostics_->reading()).members) {
+        const JsonValue& value = each.second;
+        const bool known = value.kind == JsonValue::Kind::number;
+        out[pythonName(each.first).c_str()] = value.kind == JsonValue::Kind::string
+                                                  ? py::object(py::str(value.text))
+                                              : known ? py::object(py::float_(value.number))
+                                                      : py::none();
+    }
     return out;
 }
 
@@ -280,6 +318,7 @@ void PySimulation::load(const std::filesystem::path& file) {
     Simulation& simulation = use();
     const Checkpoint read = readCheckpoint(file, simulation.plan());
     simulation.load(read.state);
+    if (diagnostics_) diagnostics_->forget();
     simulation.parameters = read.parameters;
     substeps_ = read.parameters.substeps;
 }

@@ -12,6 +12,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "measure/diagnostics.h"
 #include "python/scene.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -51,7 +52,7 @@ class SignalWatch {
 class PySimulation {
   public:
     PySimulation(const PyScene& scene, const std::optional<std::string>& solver, std::optional<int> substeps,
-                 std::optional<int> device, const std::string& path);
+                 std::optional<int> device, const std::string& path, bool diagnostics);
 
     PySimulation(const PySimulation&) = delete;
     PySimulation& operator=(const PySimulation&) = delete;
@@ -74,6 +75,8 @@ class PySimulation {
     void setState(const py::object& group, const std::optional<Array>& positions,
                   const std::optional<Array>& velocities);
     py::dict energy(const py::object& group);
+    // Of measure::Reading, of now. Error: it was made without.
+    py::dict diagnostics();
 
     py::array picture(int width, int height, const std::optional<Vector3>& eye,
                       const std::optional<Vector3>& target, std::optional<double> fieldOfView);
@@ -102,7 +105,8 @@ class PySimulation {
     Device* device_ = nullptr;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
-    int substeps_ = 1;  // of a frame, as asked for
+    std::unique_ptr<measure::Diagnostics> diagnostics_;  // null: none are wanted
+    int substeps_ = 1;                                   // of a frame, as asked for
 };
 
 }  // namespace shoal::python

@@ -141,7 +141,7 @@ static bool stalled(const std::vector<double>& changes) {
 
 namespace {
 
-// Whether so many more halvings leave a change above the tolerance if they go on as the last three did.
+// Whether so many more halvings bring the change down to the tolerance if they go on as the last three did.
 bool falls(const std::vector<double>& changes, double tolerance, double halvings) {
     constexpr size_t some = 3;
     if (changes.size() <= some) return true;
@@ -156,7 +156,7 @@ class Halving {
         out_ = {start, duration, std::numeric_limits<double>::infinity(), false, Ended::outOfTime};
     }
 
-    Solution solve(double tolerance, int halvings) {
+    Solution solve(const std::function<double(const State&)>& tolerance, int halvings) {
         try {
             out_.ended = halve(tolerance, halvings);
         } catch (const OutOfTime&) {
@@ -167,7 +167,7 @@ class Halving {
     }
 
   private:
-    Ended halve(double tolerance, int halvings) {
+    Ended halve(const std::function<double(const State&)>& tolerance, int halvings) {
         const double size = problem_.size();
         int64_t steps = firstSteps(problem_, duration_);
         bool settledBefore = next(steps).settled;
@@ -178,12 +178,13 @@ class Halving {
             if (unsettled >= 5) return Ended::unsettled;
             // n halvings take 2 + 4 + ... + 2^n times as long as the last run
             const double more = std::floor(std::log2(deadline_.left() / secondsOfRun_ / 2 + 1));
-            if (more < 1 || !falls(changes, tolerance, more)) return Ended::outOfTime;
+            if (more < 1 || !falls(changes, tolerance(out_.state), more)) return Ended::outOfTime;
             const State coarse = out_.state;
             const ContactRun finer = next(steps *= 2);
             if (!finite(finer.state)) return Ended::notFinite;
             out_.error = relativeError(out_.state, coarse, size);
-            if (settledBefore && finer.settled && out_.error <= tolerance) return Ended::converged;
+            if (settledBefore && finer.settled && out_.error <= tolerance(out_.state))
+                return Ended::converged;
             settledBefore = finer.settled;
             unsettled = finer.settled ? 0 : unsettled + 1;
             changes.push_back(out_.error);
@@ -215,6 +216,12 @@ class Halving {
 
 Solution solve(const Problem& problem, const State& start, double duration, double tolerance, int halvings,
                double seconds) {
+    return solve(
+        problem, start, duration, [&](const State&) { return tolerance; }, halvings, seconds);
+}
+
+Solution solve(const Problem& problem, const State& start, double duration,
+               const std::function<double(const State&)>& tolerance, int halvings, double seconds) {
     return Halving(problem, start, duration, seconds).solve(tolerance, halvings);
 }
 

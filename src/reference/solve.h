@@ -2,6 +2,7 @@
 // until the answer stops changing. Contact: reference/contact.h.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "reference/problem.h"
@@ -46,6 +47,9 @@ struct Solution {
 // its end, the state is the start.
 Solution solve(const Problem& problem, const State& start, double duration, double tolerance,
                int halvings = 12, double seconds = std::numeric_limits<double>::infinity());
+// Likewise, with a tolerance that depends on the solution so far.
+Solution solve(const Problem& problem, const State& start, double duration,
+               const std::function<double(const State&)>& tolerance, int halvings, double seconds);
 
 // How many steps the first run takes.
 int64_t firstSteps(const Problem& problem, double duration);

@@ -71,9 +71,9 @@ void Progress::print() {
         std::fprintf(stderr, "%s: %d of %d, %.1f s%s\n", what_.c_str(), done_, total_, seconds, rest.c_str());
         return;
     }
-    constexpr int width = 32;
+    const int width = std::clamp(38 - int(what_.size()), 8, 32);  // a line has 80 letters
     std::string bar(size_t(width * done_ / total_), '#');
-    bar.resize(width, '.');
+    bar.resize(size_t(width), '.');
     const std::string rest =
         done_ == 0 ? "starting" : concat(done_ < total_ ? roughly(left) : "0 s", " left");
     std::fprintf(stderr, "\r%s [%s] %d/%d  %s   ", what_.c_str(), bar.c_str(), done_, total_, rest.c_str());

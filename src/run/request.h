@@ -25,7 +25,8 @@ struct RunRequest {
     std::optional<int> substeps, count;
     std::optional<uint64_t> seed;
 
-    bool lenient = false;  // reads models of which something is lost (geometry/mesh.h)
+    bool diagnostics = true;  // the run tells of itself (measure/diagnostics.h)
+    bool lenient = false;     // reads models of which something is lost (geometry/mesh.h)
 
     std::string save;             // a checkpoint
     std::vector<int> saveFrames;  // empty: the last

@@ -179,15 +179,18 @@ std::vector<glm::vec4> GroupBuffers::download(Values values) const {
     return out;
 }
 
-// A block crosses the bus.
-std::vector<glm::vec4> GroupBuffers::download(Values values, size_t molecule) const {
+// Whole blocks cross the bus.
+std::vector<glm::vec4> GroupBuffers::download(Values values, size_t first, size_t count) const {
     const int each = elements(values);
-    const size_t block = size_t(BufferLayout::block);
-    std::vector<glm::vec4> all(block * size_t(each)), out;
-    const size_t bytes = all.size() * sizeof(glm::vec4);
-    bufferOf(*this, values).download(Traffic::Kind::state, molecule / block * bytes, all.data(), bytes);
-    for (int e = 0; e < each; ++e)
-        out.push_back(all[BufferLayout::index(molecule % block, e, each)]);
+    const size_t block = size_t(BufferLayout::block), firstBlock = first / block;
+    const size_t blocks = (first + count + block - 1) / block - firstBlock, perBlock = block * size_t(each);
+    std::vector<glm::vec4> all(blocks * perBlock), out;
+    bufferOf(*this, values)
+        .download(Traffic::Kind::state, firstBlock * perBlock * sizeof(glm::vec4), all.data(),
+                  all.size() * sizeof(glm::vec4));
+    for (size_t m = first; m < first + count; ++m)
+        for (int e = 0; e < each; ++e)
+            out.push_back(all[BufferLayout::index(m - firstBlock * block, e, each)]);
     return out;
 }
 

@@ -67,7 +67,7 @@ class GroupBuffers : public PackedState {
     static auto& bufferOf(Self& self, Values values);
     void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) override;
     std::vector<glm::vec4> download(Values values) const override;
-    std::vector<glm::vec4> download(Values values, size_t molecule) const override;
+    std::vector<glm::vec4> download(Values values, size_t first, size_t count) const override;
     // A part of a buffer with so many 4-vectors a molecule.
     Range rangeOf(const Part& part, const gpu::Buffer& buffer, int elements) const;
     int workgroups(const Part& part) const { return (part.count + together_ - 1) / together_; }

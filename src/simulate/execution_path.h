@@ -79,8 +79,8 @@ class ExecutionPath {
     // State bytes are counted as they cross the bus. `time`: of the state, s.
     virtual void write(size_t group, const GroupState& groupState, double time) = 0;
     virtual GroupState read(size_t group) const = 0;
-    // Reads one molecule, with its scale and phase in `looks`.
-    virtual GroupState readOne(size_t group, size_t molecule) const = 0;
+    // Reads so many molecules, with their scales and phases in `looks`, and little beside them.
+    virtual GroupState readSome(size_t group, size_t first, size_t count) const = 0;
     virtual std::vector<glm::vec3> readNormals(size_t group) const = 0;
     // Takes back what memory() has given for as many spheres, or empties the memory of contacts.
     virtual void remember(const ContactMemory&) {}

@@ -40,8 +40,8 @@ class Fused : public ExecutionPath {
     }
     void write(size_t group, const GroupState& groupState, double time) override;
     GroupState read(size_t group) const override;
-    GroupState readOne(size_t group, size_t molecule) const override {
-        return state(group).readOne(molecule);
+    GroupState readSome(size_t group, size_t first, size_t count) const override {
+        return state(group).readSome(first, count);
     }
     std::vector<glm::vec3> readNormals(size_t group) const override {
         return state(group).readNormals(plan_->groups[group]);

@@ -137,12 +137,19 @@ std::vector<glm::vec4> GroupLayers::download(Values values) const {
     return out;
 }
 
-std::vector<glm::vec4> GroupLayers::download(Values values, size_t molecule) const {
+std::vector<glm::vec4> GroupLayers::download(Values values, size_t first, size_t count) const {
     const Texture& texture = textureOf(*this, values);
-    std::vector<glm::vec4> out(size_t(texture.layers()));
-    for (int layer = 0; layer < texture.layers(); ++layer)
-        texture.download(Traffic::Kind::state, int(molecule % stateWidth), int(molecule / stateWidth), 1, 1,
-                         &out[size_t(layer)], sizeof(glm::vec4), layer);
+    const size_t layers = size_t(texture.layers());
+    std::vector<glm::vec4> out(count * layers), texels;
+    for (const TexelRun& run : texelRuns(first, count)) {
+        texels.resize(size_t(run.width));
+        for (size_t layer = 0; layer < layers; ++layer) {
+            texture.download(Traffic::Kind::state, run.x, run.y, run.width, 1, texels.data(),
+                             texels.size() * sizeof(glm::vec4), int(layer));
+            for (size_t i = 0; i < texels.size(); ++i)
+                out[(run.offset + i) * layers + layer] = texels[i];
+        }
+    }
     return out;
 }
 

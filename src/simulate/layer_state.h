@@ -64,7 +64,7 @@ class GroupLayers : public PackedState {
     bool hasSteering() const override { return bool(steering_[0]); }
     void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) override;
     std::vector<glm::vec4> download(Values values) const override;
-    std::vector<glm::vec4> download(Values values, size_t molecule) const override;
+    std::vector<glm::vec4> download(Values values, size_t first, size_t count) const override;
 
     int count_;
     int current_ = 0;

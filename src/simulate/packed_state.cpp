@@ -205,18 +205,24 @@ GroupState PackedState::readSide(const GroupPlan& group, bool before) const {
     return state;
 }
 
-GroupState PackedState::readOne(size_t molecule) const {
-    std::vector<glm::vec4> packed = download(Values::state, molecule);
+GroupState PackedState::readSome(size_t first, size_t count) const {
+    std::vector<glm::vec4> packed = download(Values::state, first, count);
     const Packer packer{layout_, layout_.stateElements(), 1};
-    const glm::vec4 record = download(Values::records, molecule)[0];
     GroupState out;
-    out.positions = packer.unpack(packed, 0, 1);
-    out.velocities = packer.unpack(packed, layout_.positionElements(), 1);
-    out.anchors.emplace_back(record);
-    out.released.push_back(std::signbit(record.w));
-    if (layout_.life) out.lives.emplace_back(packer.age(0, packed), packer.span(0, packed));
-    out.looks.emplace_back(hasConstants() ? glm::vec2(download(Values::constants, molecule)[0])
-                                          : glm::vec2(1, 0));
+    out.positions = packer.unpack(packed, 0, count);
+    out.velocities = packer.unpack(packed, layout_.positionElements(), count);
+    for (const glm::vec4& record : download(Values::records, first, count)) {
+        out.anchors.emplace_back(record);
+        out.released.push_back(std::signbit(record.w));
+        if (layout_.life) out.seeds.push_back(record.w == 0 ? 0 : uint32_t(std::abs(record.w)) - 1);
+    }
+    for (size_t m = 0; layout_.life && m < count; ++m)
+        out.lives.emplace_back(packer.age(m, packed), packer.span(m, packed));
+    out.looks.assign(count, glm::vec2(1, 0));
+    if (hasConstants()) {
+        const std::vector<glm::vec4> looks = download(Values::constants, first, count);
+        std::copy(looks.begin(), looks.end(), out.looks.begin());
+    }
     return out;
 }
 

@@ -33,8 +33,8 @@ class PackedState {
 
     void write(const GroupPlan& group, const GroupState& state);
     GroupState read(const GroupPlan& group) const { return readSide(group, false); }
-    // Reads one molecule, and little beside it. Its scale and phase are in `looks`.
-    GroupState readOne(size_t molecule) const;
+    // Reads so many molecules, and little beside them. Their scales and phases are in `looks`.
+    GroupState readSome(size_t first, size_t count) const;
     // The side before the last frame, with two of them.
     GroupState readBefore(const GroupPlan& group) const { return readSide(group, true); }
     std::vector<glm::vec3> readNormals(
@@ -57,8 +57,8 @@ class PackedState {
     // The 4-vectors of so many molecules, which are whole blocks and rows, from `first` on.
     virtual void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) = 0;
     virtual std::vector<glm::vec4> download(Values values) const = 0;
-    // The 4-vectors of one molecule.
-    virtual std::vector<glm::vec4> download(Values values, size_t molecule) const = 0;
+    // The 4-vectors of so many molecules, one molecule behind the other.
+    virtual std::vector<glm::vec4> download(Values values, size_t first, size_t count) const = 0;
     virtual bool hasSteering() const = 0;
 
   private:

@@ -38,7 +38,7 @@ struct MoleculeNumbers {
     std::optional<glm::dvec2> life;  // s: age, and length of life; nothing: it lives for ever
     bool released = false;           // its pins are released
 };
-// `state`: Simulation::readMolecule. `stiffness`: the factor on all springs.
+// `state`: one molecule, as Simulation::readMolecules has it. `stiffness`: the factor on all springs.
 MoleculeNumbers numbersOf(const GroupState& state, const Molecule& shape, double stiffness);
 
 }  // namespace shoal

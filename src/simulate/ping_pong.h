@@ -35,8 +35,8 @@ class PingPong : public ExecutionPath {
         state.write(group, groupState);
     }
     GroupState read(size_t group) const override { return state.read(group); }
-    GroupState readOne(size_t group, size_t molecule) const override {
-        return state.readOne(group, molecule);
+    GroupState readSome(size_t group, size_t first, size_t count) const override {
+        return state.readSome(group, first, count);
     }
     std::vector<glm::vec3> readNormals(size_t group) const override { return state.readNormals(group); }
     std::optional<int> framesSinceAlarm(bool) override {

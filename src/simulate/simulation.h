@@ -92,9 +92,11 @@ class Simulation {
 
     // State bytes are counted as they cross the bus.
     Snapshot snapshot(size_t group) const;
-    // Reads one molecule, with its scale and phase in `looks`. Waits. On the fused path its whole block of
-    // molecules crosses the bus.
-    GroupState readMolecule(size_t group, size_t molecule) const { return path_->readOne(group, molecule); }
+    // Reads so many molecules from `first` on, with their scales and phases in `looks`, without history and
+    // steering. Waits. On the fused path whole blocks of 16 cross the bus.
+    GroupState readMolecules(size_t group, size_t first, size_t count) const {
+        return path_->readSome(group, first, count);
+    }
     SavedState save() const;
     // Returns the state before the last frame, to look closer at what went wrong in it. Nothing where that
     // state is gone: on the ping-pong path, in place, with births, deaths or schools, and without a frame

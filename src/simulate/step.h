@@ -16,6 +16,7 @@ struct ForceControl {
     bool on = true;                      // those of the mouse act only while told to
     double factor = 1;                   // on its strength, on top of its path's
     std::optional<glm::dvec3> position;  // m, in place of its own and its path's
+    bool operator==(const ForceControl&) const = default;
 };
 
 struct Parameters {
@@ -26,6 +27,7 @@ struct Parameters {
     std::vector<double> fields;                   // factors on the fields' weights; those left out: 1
     int substeps = 4;                             // per frame
     double frameTime = 1.0 / 60;                  // s
+    bool operator==(const Parameters&) const = default;
 };
 
 // Returns the parameters as the scene has them, before any slider is moved.

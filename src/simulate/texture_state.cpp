@@ -135,24 +135,34 @@ GroupState TextureState::read(size_t group) const {
     return state;
 }
 
-GroupState TextureState::readOne(size_t group, size_t molecule) const {
+GroupState TextureState::readSome(size_t group, size_t first, size_t count) const {
     const Rows& rows = rows_[group];
-    const auto texel = [&](const Texture& texture, int firstRow, size_t slab) {
-        glm::vec4 out(0);
-        const size_t row = size_t(firstRow) + slab * size_t(rows.slabRows) + molecule / stateWidth;
-        texture.download(Traffic::Kind::state, int(molecule % stateWidth), int(row), 1, 1, &out, sizeof out);
-        return out;
+    const size_t vertices = size_t(plan_->groups[group].vertexCount);
+    // put(m, texel) for each of the molecules, the first of which is 0
+    const auto read = [&](const Texture& texture, int firstRow, size_t slab, const auto& put) {
+        for (const TexelRun& run : texelRuns(first, count)) {
+            std::vector<glm::vec4> texels(size_t(run.width));
+            texture.download(Traffic::Kind::state, run.x, firstRow + int(slab) * rows.slabRows + run.y,
+                             run.width, 1, texels.data(), texels.size() * sizeof(glm::vec4));
+            for (size_t i = 0; i < texels.size(); ++i)
+                put(run.offset + i, texels[i]);
+        }
     };
     GroupState state;
-    for (size_t v = 0; v < size_t(plan_->groups[group].vertexCount); ++v) {
-        state.positions.emplace_back(texel(position.read(group), rows.firstRow, v));
-        state.velocities.emplace_back(texel(velocity.read(group), rows.firstRow, v));
+    state.positions.resize(count * vertices);
+    state.velocities.resize(count * vertices);
+    for (size_t v = 0; v < vertices; ++v) {
+        read(position.read(group), rows.firstRow, v,
+             [&](size_t m, const glm::vec4& texel) { state.positions[m * vertices + v] = texel; });
+        read(velocity.read(group), rows.firstRow, v,
+             [&](size_t m, const glm::vec4& texel) { state.velocities[m * vertices + v] = texel; });
     }
-    const glm::vec4 own = texel(record.read(group), rows.firstRecordRow, 0);
-    state.anchors.emplace_back(own);
-    state.released.push_back(own.w > 0.5f);
-    const glm::vec4 look = texel(constant, rows.firstRecordRow, 0);
-    state.looks.emplace_back(look.y, look.z);
+    read(record.read(group), rows.firstRecordRow, 0, [&](size_t, const glm::vec4& texel) {
+        state.anchors.emplace_back(texel);
+        state.released.push_back(texel.w > 0.5f);
+    });
+    read(constant, rows.firstRecordRow, 0,
+         [&](size_t, const glm::vec4& texel) { state.looks.emplace_back(texel.y, texel.z); });
     return state;
 }
 

@@ -58,8 +58,8 @@ class TextureState {
     // Into and from the current sides; counted as state that crosses the bus.
     void write(size_t group, const GroupState& state);
     GroupState read(size_t group) const;
-    // Reads one molecule. Its scale and phase are in `looks`.
-    GroupState readOne(size_t group, size_t molecule) const;
+    // Reads so many molecules. Their scales and phases are in `looks`.
+    GroupState readSome(size_t group, size_t first, size_t count) const;
     std::vector<glm::vec3> readNormals(size_t group) const { return download(normal, group); }
 
     TwoSided position, velocity, acceleration, record;

@@ -25,6 +25,7 @@ OpenScene::OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int
     camera.standOn([this](double x, double z) { return groundHeight(running.scene(), x, z); });
     explanations = std::make_unique<Explanations>(context, running.scene(), simulation().plan());
     reload.follow(running, true);
+    diagnose();
     checkSave(request);
     if (request.resume.empty()) return;
     shoal::resume(request, running.simulation());
@@ -40,6 +41,7 @@ void OpenScene::follow() {
     camera.start(View::fromCamera(running.scene().camera));
     reload.follow(running, false);
     timeLine.forget();
+    diagnose();
     picture.rate.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
@@ -49,6 +51,11 @@ void OpenScene::follow() {
         picked && picked->group < plan.groups.size() && picked->molecule < plan.groups[picked->group].count;
     if (exists) explanations->picked = picked;
     if (!exists) forget();
+}
+
+void OpenScene::diagnose() {
+    if (request.diagnostics)
+        diagnostics = std::make_unique<measure::Diagnostics>(running.scene(), simulation());
 }
 
 void OpenScene::writeControls() {
@@ -123,7 +130,7 @@ void OpenScene::readPicked() {
     if (!explanations->picked) return;
     const PickedMolecule picked = *explanations->picked;
     const GroupPlan& group = simulation().plan().groups[picked.group];
-    numbers = numbersOf(simulation().readMolecule(picked.group, size_t(picked.molecule)),
+    numbers = numbersOf(simulation().readMolecules(picked.group, size_t(picked.molecule), 1),
                         running.scene().groups[group.index].molecule,
                         group.stiffness * simulation().parameters.stiffness);
     if (follows && numbers->alive) camera.follow(numbers->middle);

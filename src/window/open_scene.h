@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include "measure/diagnostics.h"
 #include "window/explanations.h"
 #include "window/frame_rate.h"
 #include "window/orbit_camera.h"
@@ -60,8 +61,9 @@ struct OpenScene {
     HotReload reload;
     TimeLine timeLine;
     std::unique_ptr<Explanations> explanations;
-    std::optional<MoleculeNumbers> numbers;  // of the picked molecule, as read last
-    bool follows = false;                    // the camera, the picked molecule
+    std::unique_ptr<measure::Diagnostics> diagnostics;  // null: none are wanted
+    std::optional<MoleculeNumbers> numbers;             // of the picked molecule, as read last
+    bool follows = false;                               // the camera, the picked molecule
 
     // Error: RunningScene's; what --resume and --save name cannot be read or written.
     OpenScene(RunRequest given, gpu::Context& context, Loaded loaded, int width, int height);
@@ -90,6 +92,8 @@ struct OpenScene {
     View view() const;                      // of now
 
   private:
+    void diagnose();  // from now on
+
     int builds_ = 1;  // of `running`, that were followed
 };
 

@@ -141,7 +141,8 @@ static bool section(const char* title, bool open) {
 }
 
 Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanations& explanations,
-                          FrameRate& rate, double frameSeconds, const gpu::Traffic& lastFrame) {
+                          FrameRate& rate, double frameSeconds, const gpu::Traffic& lastFrame,
+                          const measure::Diagnostics* diagnostics) {
     Simulation& simulation = running.simulation();
     const float edge = points(12), width = points(304);
     ImGui::SetNextWindowPos(ImVec2(edge, edge));
@@ -155,7 +156,7 @@ Panel::Action Panel::draw(Controls& controls, RunningScene& running, Explanation
           drawMethod(controls, running), drawTrials(running.document())})
         if (action == Action::none) action = asked;
     drawView(explanations, simulation, rate);
-    drawCost(simulation, running.renderer(), frameSeconds, lastFrame);
+    drawCost(simulation, running.renderer(), frameSeconds, lastFrame, diagnostics);
     ImGui::PopItemWidth();
     ImGui::End();
     return action;
@@ -326,10 +327,11 @@ void Panel::drawView(Explanations& explanations, const Simulation& simulation, F
 }
 
 void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
-                     const gpu::Traffic& lastFrame) {
+                     const gpu::Traffic& lastFrame, const measure::Diagnostics* diagnostics) {
     if (!section("Cost", true)) return;
     ImGui::Text("%.1f frames/s, %s, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
                 name(simulation.path().path), name(simulation.plan().groups.front().solver));
+    if (diagnostics) drawDiagnostics(*diagnostics);
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
     drawTimes(simulation.timers(), renderer.timers());
     if (ImGui::BeginTable("bus", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {

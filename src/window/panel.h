@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/diagnostics.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
@@ -56,9 +57,9 @@ class Panel {
     explicit Panel(const Scene& scene);
     void follow(const Scene& scene);  // that was built anew
 
-    // Draws the panel and returns what the user asked for in this frame.
+    // Draws the panel and returns what the user asked for in this frame. Null: there are no diagnostics.
     Action draw(Controls& controls, RunningScene& running, Explanations& explanations, FrameRate& rate,
-                double frameSeconds, const gpu::Traffic& lastFrame);
+                double frameSeconds, const gpu::Traffic& lastFrame, const measure::Diagnostics* diagnostics);
     const JsonValue& tried() const { return tried_; }  // what the scene is to say after tryOut
 
     std::string error;            // of the method, as measured; empty: it was not
@@ -72,7 +73,7 @@ class Panel {
     Action drawMethod(Controls& controls, const RunningScene& running);
     void drawView(Explanations& explanations, const Simulation& simulation, FrameRate& rate);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
-                  const gpu::Traffic& lastFrame);
+                  const gpu::Traffic& lastFrame, const measure::Diagnostics* diagnostics);
 
     JsonValue tried_;
     int group_ = 0;                       // of the scene, that is shown
@@ -87,6 +88,9 @@ JsonValue withControls(JsonValue root, const Scene& scene, const Controls& contr
 
 // Draws the time of each pass in the last frames: stacked over time, and as a table in the same colours.
 void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing);
+
+// Draws a bar as long as the error's logarithm, with what else a run tells of itself in its tooltip.
+void drawDiagnostics(const measure::Diagnostics& diagnostics);
 
 // Measures the error of a few molecules of each group of `scene`, from its start over half a second, by the
 // solver and substeps of the simulation against the double-precision reference: "error 1.2e-4 of its size

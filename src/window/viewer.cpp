@@ -117,6 +117,7 @@ class Viewer : public WindowLoop {
         if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
         show(open.running.renderer().picture());
         lastFrame_ = context().traffic() - before;
+        if (steps && open.diagnostics) open.diagnostics->follow();
         if (steps) captures_.add(open.running);
     }
 
@@ -146,7 +147,7 @@ class Viewer : public WindowLoop {
         OpenScene& open = *open_;
         if (!hidden_) {
             wish_.panel = open.panel.draw(open.controls, open.running, *open.explanations, open.picture.rate,
-                                          frameSeconds(), lastFrame_);
+                                          frameSeconds(), lastFrame_, open.diagnostics.get());
             open.drawPicked(points(328), points(open.timeLine.open ? 90 : 12));
             if (const SavedState* state = open.timeLine.draw(points(328), points(392), open.simulation()))
                 goTo(*state);
@@ -174,6 +175,7 @@ class Viewer : public WindowLoop {
 
     void goTo(const SavedState& state) {
         open_->simulation().load(state);
+        if (open_->diagnostics) open_->diagnostics->forget();
         open_->controls.paused = true;
         troubles.end("run");
         captures_.say(concat("went to frame ", state.frames, ", paused"));

@@ -4,13 +4,11 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "core/random.h"
 #include "gl/gl_test.h"
+#include "gl/random_scene.h"
 #include "measure/calibrate.h"
 #include "scene/collider_kinds.h"
-#include "scene/json/scene_file.h"
 #include "support/catch.h"
-#include "support/scratch.h"
 #include "support/shapes.h"
 
 namespace shoal {
@@ -19,55 +17,6 @@ using namespace test;
 using namespace measure;
 
 namespace {
-
-constexpr int molecules = 24;
-
-// Draws a scene of one group. Chances are independent, "log" is uniform in the logarithm:
-//   molecule    quad, cross, leaf, fry                  stiffness  log 0.1 to 1,000 of its own: 6 to 2,500 Hz
-//   pins        half of the leaves, by their stems      turn       any; scale 0.7 to 1.4
-//   drag        3 of 4: log 0.1 to 10 /s, half of these by direction: along the surface a tenth
-//   wind        none, shear, vortex, gust, curlNoise    speed      log 0.3 to 3 m/s
-//   spin        one of 3 of what is not pinned: up to 8 rad/s about each axis
-//   plane       one of 4, 0.5 m below the lowest: restitution 0.5, friction 0.3
-std::string randomScene(uint64_t seed) {
-    Random random(seed);
-    const auto logarithmic = [&](double low, double high) {
-        return std::exp(random.uniform(std::log(low), std::log(high)));
-    };
-    const auto one = [&](int among) { return int(random.uniform() * among); };
-    const std::pair<std::string, double> kinds[] = {{"quad", 20}, {"cross", 10}, {"leaf", 0.39}, {"fry", 20}};
-    const auto& [molecule, stiffness] = kinds[one(4)];
-    std::string group = concat(
-        R"("molecule": ")", molecule, R"(", "count": )", molecules,
-        R"(, "place": {"on": "volume", "box": {"low": [-1, 0, -1], "high": [1, 1, 1]}, )",
-        R"("turn": "any", "scale": [0.7, 1.4]})", R"(, "stiffness": )", stiffness * logarithmic(0.1, 1000));
-    const bool pinned = molecule == "leaf" && one(2) == 1;
-    if (molecule == "leaf") group += concat(R"(, "held": )", pinned ? "true" : "false");
-    if (one(4) > 0) {
-        const double drag = logarithmic(0.1, 10);
-        group += one(2) == 1 ? concat(R"(, "drag": {"normal": )", drag, R"(, "tangent": )", 0.1 * drag, "}")
-                             : concat(R"(, "drag": )", drag);
-    }
-    const double speed = logarithmic(0.3, 3);
-    const std::string winds[] = {
-        "",
-        concat(R"({"type": "shear", "gradient": [[0, )", speed, R"(, 0], [0, 0, )", speed, "], [0, 0, 0]]}"),
-        concat(R"({"type": "vortex", "origin": [0.3, 0, 0.2], "axis": [0.2, 1, 0.1], "speed": )", speed,
-               R"(, "radius": 0.5})"),
-        concat(R"({"type": "gust", "direction": [1, 0, 0.3], "speed": )", speed, R"(, "length": 2})"),
-        concat(R"({"type": "curlNoise", "speed": )", speed, R"(, "length": 1, "period": 1})")};
-    const std::string wind = winds[one(5)];
-    if (!pinned && one(3) == 0) {
-        const double z = random.uniform(-8, 8), y = random.uniform(-8, 8), x = random.uniform(-8, 8);
-        group += concat(R"(, "spin": [)", x, ", ", y, ", ", z, "]");
-    }
-    const std::string plane =
-        one(4) == 0
-            ? R"(, "colliders": [{"type": "plane", "point": [0, -0.5, 0], "restitution": 0.5, "friction": 0.3}])"
-            : "";
-    return concat(R"({"format": "shoal-scene-1", "gravity": [0, -9.81, 0], "fields": [)", wind, "]", plane,
-                  R"(, "groups": [{)", group, "}]}");
-}
 
 struct Found {
     double rms = 0, worst = 0;
@@ -83,7 +32,7 @@ Found found(const Scene& scene, const Calibration& claim, const AccuracyDevice& 
     runner.run(int(std::lround(claim.duration * scene.frameRate)));
     const std::vector<Snapshot> ends = runner.snapshots();
     Found out;
-    for (int m = 0; m < molecules; ++m) {
+    for (int m = 0; m < randomMolecules; ++m) {
         ExactEnds exact(scene, runner.simulation().plan(), starts, claim.duration, device.cores, {{0, m}});
         const Settled settled = exact.solve(0.01 * claim.target, seconds);
         if (settled != Settled::yes && exact.error() > 0.1 * claim.target) {
@@ -95,7 +44,7 @@ Found found(const Scene& scene, const Calibration& claim, const AccuracyDevice& 
         out.worst = std::max(out.worst, error);
         out.above += error > claim.target;
     }
-    out.rms = std::sqrt(out.rms / std::max(1, molecules - out.unknown));
+    out.rms = std::sqrt(out.rms / std::max(1, randomMolecules - out.unknown));
     return out;
 }
 
@@ -107,9 +56,7 @@ struct Checked {
 
 // `seconds`: of the search.
 Checked check(uint64_t seed, double error, std::optional<double> seconds = {}) {
-    const Scratch scratch;
-    scratch.write("claim.scene.json", randomScene(seed));
-    const Scene scene = readScene(scratch.path("claim.scene.json"));
+    const Scene scene = randomScene(seed);
     const AccuracyDevice device{.context = &testContext(), .cores = 2, .path = testPath()};
     CalibrationOptions options;
     options.error = error;
@@ -132,7 +79,7 @@ TEST_CASE("what --error claims of a scene holds for all of its molecules", "[cla
         const Checked checked = check(seed, error);
         CAPTURE(seed, checked.refusal);
         REQUIRE(checked.claim);
-        CHECK(checked.claim->sample.molecules == molecules);
+        CHECK(checked.claim->sample.molecules == randomMolecules);
         CHECK(checked.truth.unknown == 0);
         CHECK(checked.truth.above == 0);
         CHECK(checked.truth.rms < error);

@@ -72,6 +72,22 @@ def test_energy_of_a_stretched_spring_is_kept():
         assert energy["kinetic"] + energy["elastic"] == pytest.approx(0.5, rel=1e-3)
 
 
+def test_a_run_tells_strain_and_error():
+    with shoal.Simulation(pairs(2, gravity=[0, -10, 0]), solver="rk4") as simulation:
+        first = simulation.positions()
+        first[:, 1, 0] = first[:, 0, 0] + [1.1, 1.2]
+        simulation.set_state(positions=first)
+        told = simulation.diagnostics()
+        assert told["strain"] == pytest.approx(0.2, rel=1e-5) and told["rms_strain"] == pytest.approx(0.025**0.5, rel=1e-5)
+        assert told["error"] is None and told["overlap"] is None and told["error_molecules"] == 0
+        simulation.step(60)
+        told = simulation.diagnostics()
+        assert told["frame"] == 60 and told["error_molecules"] == 2 and told["error_unknown"] == 0
+        assert 0 < told["error"] <= told["worst_error"] < 1e-3
+    with shoal.Simulation(pairs(), diagnostics=False) as simulation, pytest.raises(shoal.Error, match="diagnostics=False"):
+        simulation.diagnostics()
+
+
 def test_set_state_is_what_is_read_back(hello):
     places = hello.positions() + [0.25, 1, -2]
     hello.set_state(positions=places, velocities=np.ones((20, 9, 3)))
@@ -393,7 +409,7 @@ def names_of(function):
 
 def test_help_names_arguments_and_units():
     simulation = shoal.Simulation
-    assert names_of(simulation) == ["scene", "solver", "substeps", "device", "path"]
+    assert names_of(simulation) == ["scene", "solver", "substeps", "device", "path", "diagnostics"]
     assert str(inspect.signature(simulation.step)) == "(self, frames=1)"
     assert str(inspect.signature(simulation.set_state)) == "(self, group=None, *, positions=None, velocities=None)"
     assert names_of(shoal.measure) == ["scene", "duration", "solvers", "seconds", "device"]

@@ -139,6 +139,14 @@ void addRun(CLI::App& command, Options& options) {
     section(command, reports);
     command.add_flag("--timings", options.timings,
                      "Measure the time of each stage, whose passes explain --passes lists");
+    addReads(command, "--require", "End with exit code 3 when it no longer holds: \"strain<0.1, error<1e-3\"",
+             [&options](const std::string& text) {
+                 for (measure::Requirement& each : measure::requirementsOf(text))
+                     options.requirements.push_back(std::move(each));
+             });
+    command.add_flag_callback(
+        "--no-diagnostics", [&options] { options.diagnostics = false; },
+        "Tell nothing of strain, contacts and error, and read nothing for it");
     section(command, "Window");
     addScale(command, options, "Size of panels and letters, such as 2 (default: as the screen asks)");
     addFile(command, "--screenshot", options.screenshot, "Save its picture after --frames and close");
@@ -151,7 +159,8 @@ void addRun(CLI::App& command, Options& options) {
     needs(command, "--screenshot", "--frames");
     excludes(command, "--export-every", {"--export-frames"});
     excludes(command, "--screenshot",
-             {"--headless", "--capture", "--export", "--json", "--timings", "--gpu"});
+             {"--headless", "--capture", "--export", "--json", "--timings", "--gpu", "--require"});
+    excludes(command, "--require", {"--no-diagnostics", "--timings"});
 }
 
 // All long option names of a command, for suggestions.
@@ -238,11 +247,12 @@ void checkTogether(const Options& options) {
     const std::string kind = lowerExtension(options.exports);
     if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
         throw Error("--export-cells is of --export to .vtp or .pvd");
-    const bool headlessWork =
-        !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
+    const bool headlessWork = !options.capture.empty() || !options.exports.empty() || options.json ||
+                              options.timings || !options.requirements.empty();
     if (headlessWork && options.context == gpu::ContextKind::window)
         throw Error(
-            "--capture, --export, --json and --timings are of headless runs: leave out the window's options");
+            "--capture, --export, --json, --timings and --require are of headless runs: leave out the "
+            "window's options");
     const bool mayCompute = options.path == Path::automatic || options.path == Path::fused;
     if (!mayCompute && (options.inPlace || options.lanes != Lanes::automatic))
         throw Error(
@@ -353,8 +363,7 @@ static void declare(CLI::App& app, Options& options) {
     app.footer(
         "shoal COMMAND --help has the options of a command.\n"
         "Exit codes: 0 when all went well, 1 when a run failed or a file is wrong, 2 when the command line "
-        "is "
-        "wrong.");
+        "is wrong, 3 when what --require asks for does not hold.");
     // The installation is made with the first two (cmake/ShoalInstall.cmake), docs/command.md with the last.
     const auto document = [&app](const char* flag, std::string (*write)(const CLI::App&)) {
         CLI::Option* option = app.add_flag_callback(flag, [&app, write] {

@@ -10,6 +10,7 @@
 #include "author/from_mesh.h"
 #include "exchange/animation_texture.h"
 #include "gpu/context.h"
+#include "measure/reading.h"
 #include "run/request.h"
 
 namespace shoal::app {
@@ -79,6 +80,7 @@ struct Options : RunRequest {
     std::optional<int> exportEvery;  // frames
     ExportCells exportCells = ExportCells::surface;
     bool unwatched = false;  // no watchdog
+    std::vector<measure::Requirement> requirements;
     std::string screenshot;  // window: a picture of it after `frames`, then close
 
     // bench

@@ -21,7 +21,7 @@ struct RunReport {
     double seconds = 0;                // wall-clock time of the frames
     gpu::Traffic start;                // bytes moved before the first frame
     gpu::Traffic frames;               // by the frames alone: simulate and draw
-    gpu::Traffic outside;              // by captures, exports and the final hash
+    gpu::Traffic outside;              // by captures, exports, diagnostics and the final hash
     std::vector<std::string> written;  // pictures, videos, exports
     std::vector<GroupLives> lives;     // at the end, of groups with life
 };

@@ -12,6 +12,7 @@
 #include "app/measure/measure.h"
 #include "app/run/picture_layers.h"
 #include "app/run/report.h"
+#include "app/run/run_diagnostics.h"
 #include "core/data_paths.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -43,8 +44,8 @@ bool wantsWindow(const Options& options) {
     if (options.gpu) return false;
     if (options.context == gpu::ContextKind::window) return true;
     // pictures, exports and reports are headless work unless a window is asked for
-    const bool batch =
-        !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
+    const bool batch = !options.capture.empty() || !options.exports.empty() || options.json ||
+                       options.timings || !options.requirements.empty();
     return options.context == gpu::ContextKind::automatic && gpu::hasDisplay() && !batch;
 }
 
@@ -56,7 +57,7 @@ std::string defaultFolder(const std::string& sceneFile) {
 // Such a run writes pictures.
 bool asksForNothing(const Options& options) {
     return options.capture.empty() && options.exports.empty() && options.save.empty() && !options.json &&
-           !options.timings;
+           !options.timings && options.requirements.empty();
 }
 
 SimulationOptions simulationOptions(const Options& options, gpu::Context& context) {
@@ -105,6 +106,7 @@ class HeadlessRun {
             throw WrongUse(concat("--frames: ", frames_, " after frame ", first_, " are too many to count"));
         last_ = first_ + frames_;
         checkSave(options);
+        if (options.diagnostics && !options.timings) diagnostics_.emplace(options, scene_, simulation_);
         const bool nothingAsked = asksForNothing(options);
         const std::string target = nothingAsked ? defaultFolder(options.files.front()) : options.capture;
         every_ = nothingAsked ? std::max(1, frames_ / 8) : options.captureEvery;
@@ -142,12 +144,16 @@ class HeadlessRun {
         simulation_.timers().drain();
         if (renderer_) renderer_->timers().drain();
         report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (diagnostics_) outside([&] { diagnostics_->finish(); });
     }
 
     void runFrames() {
         Progress progress("frames", frames_);
-        outside([&] { writeIfAsked(first_); });
-        for (int frame = first_ + 1; frame <= last_ && !signalThatAsked(); ++frame) {
+        outside([&] {
+            writeIfAsked(first_);
+            diagnose(progress);
+        });
+        for (int frame = first_ + 1; frame <= last_ && !signalThatAsked() && holds(); ++frame) {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
@@ -161,6 +167,7 @@ class HeadlessRun {
                     if (!isVideo(target())) report_.written.push_back(pictures_->last().string());
                 }
                 writeIfAsked(frame);
+                diagnose(progress);
             });
             progress.step();
         }
@@ -168,7 +175,15 @@ class HeadlessRun {
         simulation_.check();
     }
 
-    void tell() {
+    // Returns the exit code.
+    int tell() {
+        report();
+        if (holds()) return 0;
+        std::cerr << "shoal: " << diagnostics_->broken() << "\n";
+        return 3;
+    }
+
+    void report() {
         uint64_t hash = 0;
         outside([&] {
             hash = simulation_.hash();
@@ -180,6 +195,7 @@ class HeadlessRun {
             JsonValue out = asJson(report_, simulation_, passTimes(), hash);
             if (options_.timings && drawn_ > 0)
                 append(out, key("drawnPrimitives", renderer_->drawnPrimitives()));
+            if (diagnostics_) append(out, key("diagnostics", diagnostics_->json()));
             std::cout << writeJson(out);
             return;
         }
@@ -188,6 +204,7 @@ class HeadlessRun {
                   << " path, " << context_.info().renderer << " (" << gpu::name(context_.info().kind)
                   << ")\n";
         tellWritten();
+        if (diagnostics_) diagnostics_->print(std::cout);
         for (const GroupLives& lives : report_.lives)
             std::cout << text(lives) << "\n";
         for (const gpu::PassTime& pass : passTimes())
@@ -199,6 +216,11 @@ class HeadlessRun {
     }
 
   private:
+    bool holds() const { return !diagnostics_ || diagnostics_->broken().empty(); }
+    void diagnose(Progress& progress) {
+        if (diagnostics_ && diagnostics_->follow())
+            progress.rename(concat("frames, ", diagnostics_->shortText()));
+    }
     void tellDropped() {
         const uint32_t dropped = simulation_.contact() ? simulation_.contact()->dropped() : 0;
         if (dropped == 0) return;
@@ -290,6 +312,7 @@ class HeadlessRun {
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;
     std::optional<Exporter> exporter_;
+    std::optional<RunDiagnostics> diagnostics_;
     int drawn_ = 0;         // pictures
     bool layered_ = false;  // .exr
     std::vector<std::string> exported_, saved_;
@@ -367,8 +390,7 @@ int runCommand(const Options& options) {
     HeadlessRun run(options, context, std::move(*loaded));
     const FinishesOnSignal finishes;
     run.go();
-    run.tell();
-    return 0;
+    return run.tell();
 }
 
 // A scene to begin with: leaves that drop onto the ground.
