@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Measures the scenes of docs/accuracy.md by `shoal measure`, and prints its tables.
+"""Measures the scenes of docs/accuracy.md by `shoal measure`; report.py FOLDER then makes its tables and pictures.
 
 grid.py FOLDER [--only TEXT] [--count N] [options of shoal measure, such as --seconds 15]
 
 FOLDER takes <molecule>-<motion>-<stiffness>.json, what `shoal measure --json` says of a scene, and in `scenes` the scenes
-and molecules themselves. A scene whose JSON is there is not measured again, so that a run goes on where it was ended.
+and molecules themselves. A scene whose JSON is there is not measured again, so that a run goes on where it was ended; a
+FOLDER of another commit is refused.
 
 Molecules have masses of 1 and springs of stiffness k with a damping of 0.05 sqrt(k), are centred on the origin and start
 turned by 0.7 rad about (1, 3, -2); the others of a group are turned at random, so that more than one direction counts.
@@ -145,125 +146,39 @@ def measure(scene, given, more):
     said = subprocess.run(words + ["--error", given.error] + more, stdout=subprocess.PIPE, check=False)
     if said.returncode:
         sys.exit(said.returncode)
-    (given.folder / f"{name}.json").write_bytes(said.stdout)
+    # A name of its own until it is whole: what is ended in the middle, or finds the disk full, is measured again.
+    part = given.folder / f"{name}.part"
+    part.write_bytes(said.stdout)
+    part.rename(given.folder / f"{name}.json")
 
 
-# ---- What an error costs
-
-def cost_at(curve, error):
-    """The least time at which a curve of (steps, time, error) has the error, and whether its longest step has it already."""
-    found = [(curve[0][1], True)] if curve and curve[0][2] <= error else []
-    for (_, time, high), (_, after, low) in zip(curve, curve[1:]):
-        if high > error >= low:
-            # Between two points both logarithms are interpolated.
-            found.append((time * (after / time) ** (math.log(high / error) / math.log(high / low)), False))
-    return min(found, key=lambda cost: cost[0], default=None)
-
-
-def costs(report, error):
-    """For each solver its cost_at."""
-    curves = {}
-    for point in report["points"]:
-        curve = curves.setdefault(point["solver"], [])
-        if point["outcome"] == "measured" and point["error"] and point["samples"]:
-            curve.append((point["stepsPerSecond"], point["minSecondsPerVertexAndSecond"], max(point["error"]["total"], 1e-12)))
-    return {solver: cost_at(sorted(curve), error) for solver, curve in curves.items()}
-
-
-def not_reached(report, solver=None):
-    late = any(point["outcome"] == "left out" and solver in (None, point["solver"]) for point in report["points"])
-    return "…" if late else "–"
-
-
-# ---- Tables
-
-def nanoseconds(cost):
-    value, largest = cost[0] * 1e9, cost[1]
-    digits = 2 if value < 10 else 1 if value < 100 else 0
-    return ("≤ " if largest else "") + f"{value:.{digits}f}"
-
-
-def speed_up(report, error):
-    """The cheapest solver and how many times as fast as euler it is: "≥" where it has the error at the longest step that it
-    can take, "≤" where euler has."""
-    if report["chaotic"] or report["tooStiff"]:
-        return "chaotic" if report["chaotic"] else "too stiff"
-    reached = {solver: cost for solver, cost in costs(report, error).items() if cost}
-    if not reached:
-        return not_reached(report)
-    solver = min(reached, key=lambda name: reached[name][0])
-    if "euler" not in reached or solver == "euler":
-        return solver
-    ratio = reached["euler"][0] / reached[solver][0]
-    least, most = reached[solver][1], reached["euler"][1]
-    return f"{solver} {'' if least == most else '≥ ' if least else '≤ '}{ratio:.{1 if ratio < 9.95 else 0}f}×"
-
-
-def chosen(report):
-    return "{solver} {substeps}".format(**report["chosen"]) if report["chosen"] else "none"
-
-
-def table(head, rows):
-    return "".join("| " + " | ".join(row) + " |\n" for row in (head, *rows)).replace("\n", "\n" + "|---" * len(head) + "|\n", 1)
-
-
-def by_stiffness(reports, cell):
-    """A row a motion and molecule, a column a stiffness."""
-    rows = []
-    for motion, molecule in itertools.product(motions, molecules):
-        found = [reports.get((molecule, motion, power)) for power in powers]
-        if any(found):
-            rows.append([f"{motion}, {molecule}"] + [cell(report) if report else "" for report in found])
-    return table(["motion, molecule"] + [f"k = 1e{power}" for power in powers], rows)
-
-
-def cost_table(reports, error):
-    solvers = list(dict.fromkeys(point["solver"] for report in reports.values() for point in report["points"]))
-    rows = []
-    for (molecule, motion, power), report in reports.items():
-        if not report["chaotic"] and not report["tooStiff"]:
-            found = costs(report, error)
-            rows.append([f"{motion}, {molecule}, k = 1e{power}"] + [
-                nanoseconds(found[s]) if found.get(s) else not_reached(report, s) for s in solvers])
-    return table(["scene"] + solvers, rows)
-
-
-def head(report):
-    group = report["groups"][0]
-    return (f"Machine: {report['machine']['processor']}, {report['machine']['cores']} cores; {report['context']['renderer']}, "
-            f"OpenGL {report['context']['version']}. {group['timedMolecules']:,} molecules timed, "
-            f"{group['measuredMolecules']} measured.\n")
-
-
-def text_of(reports, error):
-    # With --only, some may have been measured elsewhere.
-    return "".join(dict.fromkeys(head(report) for report in reports.values())) + f"""
-### The cheapest method for an error of {error}, and how many times as fast as `euler`
-
-{by_stiffness(reports, lambda report: speed_up(report, float(error)))}
-### Nanoseconds per vertex and simulated second for an error of {error}
-
-{cost_table(reports, float(error))}
-### What `--error {error}` chooses, with its substeps of {1 / frame_rate:g} s
-
-{by_stiffness(reports, chosen)}"""
+def check_commit(given):
+    """Ends where scenes in the folder are of another commit than the command."""
+    said = subprocess.run([given.shoal, "info", "--json"], stdout=subprocess.PIPE, check=False)
+    commit = json.loads(said.stdout)["commit"]
+    for file in sorted(given.folder.glob("*.json")):
+        try:
+            found = json.loads(file.read_text())["commit"]
+        except (ValueError, KeyError, TypeError):
+            sys.exit(f"{file}: this is not what shoal measure --json writes: give another folder")
+        if found != commit:
+            sys.exit(f"{file}: this was measured at commit {found}, and {given.shoal} is of {commit}: give another folder")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--only", default="", help="scenes with this in their name, such as leaf-fall")
-    parser.add_argument("--count", type=int, default=4096, help="molecules of each scene: enough to fill the device")
-    parser.add_argument("--error", default="1e-3", help="what the tables are for")
+    parser.add_argument("--count", type=int, default=512, help="molecules of each scene: enough to fill the device")
+    parser.add_argument("--error", default="1e-3", help="what the choice of a method is for")
     parser.add_argument("--shoal", default=os.environ.get("SHOAL_COMMAND", "build/shoal"), help="the command")
     given, more = parser.parse_known_args()
+    check_commit(given)
     wanted = [scene for scene in scene_ids() if given.only in id_of(scene)]
     missing = [scene for scene in wanted if not (given.folder / f"{id_of(scene)}.json").exists()]
     for number, scene in enumerate(missing, 1):
         print(f"scene {number} of {len(missing)}, {id_of(scene)}", file=sys.stderr)
         measure(scene, given, more)
-    files = {scene: given.folder / f"{id_of(scene)}.json" for scene in scene_ids()}
-    print(text_of({scene: json.loads(file.read_text()) for scene, file in files.items() if file.exists()}, given.error), end="")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+"""Makes the tables and pictures of docs/accuracy.md from its data, docs/accuracy/scenes.csv and points.csv.
+
+report.py                tables and pictures; pictures by Matplotlib
+report.py --check        ends with 1 where a table of a page is not what the data say; tells the commit that they are of, and
+                         which sources have changed since
+report.py FOLDER…        takes what grid.py has measured into these for the data, the last where several have a scene, then
+                         does the same as without
+
+A table stands in a page between the comments `report.py: NAME` and `report.py: end`.
+"""
+import argparse
+import itertools
+import pathlib
+import re
+import subprocess
+import sys
+
+here = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(here), str(here.parent)]
+import data
+import grid
+
+pages = here.parent / "accuracy.md", here.parent.parent / "README.md"
+# What a figure depends on: the data are as old as the commit that they are of.
+sources = ("shaders/physics", "shaders/solver", "shaders/step", "shaders/fused", "src/compile", "src/measure", "src/reference",
+           "src/simulate")
+
+
+# ---- Tables
+
+def table(head, rows):
+    return "".join("| " + " | ".join(row) + " |\n" for row in (head, *rows)).replace("\n", "\n" + "|---" * len(head) + "|\n", 1)
+
+
+def times(factor):
+    return f"{factor:.{1 if factor < 9.95 else 0}f}"
+
+
+stiffness = [f"k = 1e{power}" for power in grid.powers]
+
+
+def by_stiffness(scenes, cell):
+    """A row a motion and molecule, a column a stiffness."""
+    return table(["motion, molecule"] + stiffness, [
+        [f"{motion}, {molecule}"] + [cell(scenes[grid.id_of((molecule, motion, power))]) for power in grid.powers]
+        for motion, molecule in itertools.product(grid.motions, grid.molecules)])
+
+
+def best_cell(scene):
+    if scene["noError"]:
+        return "chaotic" if "still changes" in scene["noError"] else "too stiff"
+    found = data.best(scene)
+    return " ".join(found[::2]).rstrip() if found else "none gets there"
+
+
+def summary(scenes):
+    """A row a motion, a column a stiffness: the methods that are cheapest for its molecules, and the range of their factors."""
+    rows = []
+    for motion in grid.motions:
+        row = [f"**{motion}**"]
+        for power in grid.powers:
+            found = [data.best(scenes[grid.id_of((molecule, motion, power))]) for molecule in grid.molecules]
+            names = dict.fromkeys(one[0] for one in found if one)
+            factors = sorted(one[1] for one in found if one and one[1])
+            span = ""
+            if factors:
+                low, high = times(factors[0]), times(factors[-1])
+                span = f"<br>{high}×" if low == high else f"<br>{low} to {high}×"
+            row.append(", ".join(f"`{name}`" for name in names) + span if names else "none")
+        rows.append(row)
+    return table([""] + stiffness, rows)
+
+
+def cost_table(scenes):
+    solvers = list(dict.fromkeys(point["solver"] for scene in scenes.values() for point in scene["points"]))
+    rows = []
+    for motion, molecule, power in itertools.product(grid.motions, grid.molecules, grid.powers):
+        scene = scenes[grid.id_of((molecule, motion, power))]
+        found = data.costs(scene)
+        rows.append([f"{motion}, {molecule}, k = 1e{power}"] + (
+            [best_cell(scene)] + [""] * (len(solvers) - 1) if scene["noError"]
+            else [found[solver].text if solver in found else "not tried" for solver in solvers]))
+    return table(["scene"] + solvers, rows)
+
+
+def chosen_cell(scene):
+    if not scene["solver"]:
+        return "none"
+    length = "" if float(scene["chosenAfter"]) > 0.99 * duration(scene) else f", after {scene['chosenAfter']} s"
+    return f"{scene['solver']} {scene['substeps']}{length}"
+
+
+def duration(scene):
+    return 0.4 if "-impact-" in scene["scene"] else 1
+
+
+def chosen_ratio(scene):
+    """By how much the choice of --error, at its own error, is dearer than the cheapest method in hindsight."""
+    found = [cost.value for cost in data.costs(scene).values() if cost.reached]
+    steps = float(scene["substeps"]) * grid.frame_rate
+    points = [point for point in scene["points"] if point["solver"] == scene["solver"] and point["stepsPerSecond"] == steps]
+    if not found or not points or not points[0]["nanoseconds"]:
+        return None
+    return points[0]["nanoseconds"] / min(found)
+
+
+def factor(scene, solver):
+    """How many times as fast as `euler` a solver is, as a text."""
+    found = data.costs(scene)
+    first, cost = found["euler"], found[solver]
+    if not cost.reached or first.value is None or first.how == "floor":
+        return "not known"
+    return ("> " if first.how == "above" else "") + times(first.value / cost.value)
+
+
+def targets(scenes):
+    def factors(solver, *names):
+        return ", ".join(factor(scenes[name], solver) for name in names)
+
+    whole = [scene for scene in scenes.values() if scene["solver"] and float(scene["chosenAfter"]) > 0.99 * duration(scene)]
+    ratios = {scene["scene"]: chosen_ratio(scene) for scene in whole}
+    known = {name: ratio for name, ratio in ratios.items() if ratio}
+    worst = max(known, key=known.get)
+    least = {}
+    for point in itertools.chain.from_iterable(scene["points"] for scene in scenes.values()):
+        if point["error"]:
+            least[point["solver"]] = min(point["error"], least.get(point["solver"], 1))
+    return table(["target", "measured"], [
+        ["`leapfrog` at least 10 times `euler`, falling leaf, k = 1e2 and 1e4",
+         factors("leapfrog", "leaf-fall-1e2", "leaf-fall-1e4")],
+        ["the same, pinned in gusts", factors("leapfrog", "leaf-gusts-1e2", "leaf-gusts-1e4")],
+        ["`bdf2-xpbd` at least 8 times at 1e6: falling leaf, fish", factors("bdf2-xpbd", "leaf-fall-1e6", "fish-fall-1e6")],
+        ["`bdf2-xpbd` at least 60 times at 1e8: falling leaf, fish", factors("bdf2-xpbd", "leaf-fall-1e8", "fish-fall-1e8")],
+        ["`bdf2-corotated` at least 60 times, pinned fish at 1e8", factors("bdf2-corotated", "fish-gusts-1e8")],
+        ["the automatic choice within 2 times the best in hindsight",
+         f"in {sum(ratio <= 2 for ratio in known.values())} of the {len(known)} scenes where it claims an error after the whole "
+         f"time; at most {known[worst]:.1f} times, {worst}"],
+        ["every method below 1e-4 somewhere, but `verlet` and `xpbd`",
+         ", ".join(f"`{solver}` {value:.1e}" for solver, value in least.items()).replace("e-0", "e-")]])
+
+
+def commits_of(scenes):
+    """How many scenes are of each commit, in the order of the tables."""
+    commits = [scene["commit"] for scene in scenes.values()]
+    return {commit: commits.count(commit) for commit in commits}
+
+
+def machine(scenes):
+    first = next(iter(scenes.values()))
+    dates = sorted({scene["date"] for scene in scenes.values()})
+    commits = ", ".join(f"{commit[:10]} ({count} scenes)" for commit, count in commits_of(scenes).items())
+    return (f"Machine: {first['processor']}, {first['cores']} cores; {first['renderer']}, OpenGL {first['openGL']}. "
+            f"{int(first['timed']):,} molecules timed, {first['measured']} measured. Of commit {commits}; "
+            f"{' to '.join(dict.fromkeys((dates[0], dates[-1])))}.\n")
+
+
+tables = {
+    "machine": machine,
+    "summary": summary,
+    "best": lambda scenes: by_stiffness(scenes, best_cell),
+    "costs": cost_table,
+    "chosen": lambda scenes: by_stiffness(scenes, chosen_cell),
+    "targets": targets,
+}
+
+
+def with_tables(text, scenes):
+    def replaced(match):
+        if match["name"] not in tables:
+            sys.exit(f"report.py: a page asks for the table \"{match['name']}\", and there are {', '.join(tables)}")
+        return f"<!-- report.py: {match['name']} -->\n\n{tables[match['name']](scenes)}\n<!-- report.py: end -->"
+    return re.sub(r"<!-- report\.py: (?P<name>\w+) -->\n.*?<!-- report\.py: end -->", replaced, text, flags=re.S)
+
+
+# ---- Pictures
+
+def as_report(scene):
+    """A scene as plot.py has it from `shoal measure --json`."""
+    points = [{"solver": point["solver"], "fieldSampling": grid.samplings, "outcome": point["outcome"],
+               "error": point["error"] and {"total": point["error"]}, "samples": int(point["samples"]),
+               "minSecondsPerVertexAndSecond": point["nanoseconds"] and point["nanoseconds"] * 1e-9, "framesPerFrame": 1,
+               "substeps": point["stepsPerSecond"] / grid.frame_rate, "front": False} for point in scene["points"]]
+    chosen = scene["solver"] and {"solver": scene["solver"], "fieldSampling": grid.samplings,
+                                  "substeps": float(scene["substeps"])}
+    molecule, motion, power = scene["scene"].split("-")
+    return {"scene": f"{molecule}, {motion}, k = {power}", "points": points, "chosen": chosen, "target": data.target,
+            "chaotic": scene["noError"], "tooStiff": None, "duration": duration(scene),
+            "machine": {"processor": scene["processor"]}, "context": {"renderer": scene["renderer"]}}
+
+
+def draw_summary(scenes, picture):
+    """A cell a scene: the colour of the cheapest method, with its name and factor."""
+    import plot
+    figure, axes = plot.plt.subplots(figsize=(9, 6.2), layout="constrained")
+    rows = list(itertools.product(grid.motions, grid.molecules))
+    for (y, (motion, molecule)), (x, power) in itertools.product(enumerate(rows), enumerate(grid.powers)):
+        scene = scenes[grid.id_of((molecule, motion, power))]
+        found = data.best(scene)
+        top = y + 0.25 * (y // len(grid.molecules))
+        color = plot.colors.get(found[0], "#8A6FD1") if found else "#EEEEEE"
+        axes.add_patch(plot.plt.Rectangle((x, top), 0.96, 0.92, color=color, alpha=0.75 if found else 1))
+        axes.text(x + 0.48, top + 0.46, "  ".join(found[::2]) if found else best_cell(scene), ha="center", va="center",
+                  fontsize=9, color="black" if found else "#777777")
+        if x == 0:
+            axes.text(-0.05, top + 0.46, molecule, ha="right", va="center", fontsize=9)
+        if x == 0 and y % len(grid.molecules) == 1:
+            axes.text(-0.62, top + 0.46, motion, ha="right", va="center", fontsize=11, fontweight="bold")
+    axes.set(xlim=(-1.1, len(grid.powers)), ylim=(len(rows) + 0.75, -0.7))
+    for x, power in enumerate(grid.powers):
+        axes.text(x + 0.48, -0.2, f"k = 1e{power} N/m", ha="center", fontsize=10)
+    axes.axis("off")
+    axes.set_title(f"The cheapest method for an error of {data.target:g} of a molecule's size, "
+                   "and how many times as fast as euler it is", fontsize=11)
+    figure.savefig(picture, dpi=110)
+
+
+def draw(scenes):
+    import plot
+    for molecule in grid.molecules:
+        plot.draw([as_report(scenes[grid.id_of((molecule, motion, power))])
+                   for motion, power in itertools.product(grid.motions, grid.powers)], here.parent / f"accuracy-{molecule}.png")
+    draw_summary(scenes, here.parent / "accuracy.png")
+
+
+# ---- The pages
+
+def check(scenes):
+    """Whether all tables are what the data say."""
+    right = True
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        if with_tables(text, scenes) != text:
+            print(f"{page.relative_to(here.parent.parent)}: a table is not what docs/accuracy/*.csv say; docs/accuracy/report.py "
+                  "makes it")
+            right = False
+    for commit, count in commits_of(scenes).items():
+        said = subprocess.run(["git", "diff", "--name-only", commit, "HEAD", "--", *sources], cwd=here.parent.parent, capture_output=True,
+                              text=True, check=False)
+        if said.returncode:
+            print(f"{count} scenes are of commit {commit}, which git does not have here.")
+        else:
+            changed = said.stdout.split()
+            print(f"{count} scenes are of commit {commit}; since then {len(changed)} sources have changed that a figure may "
+                  "depend on" + "".join(f"\n  {name}" for name in changed))
+    return right
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", type=pathlib.Path, nargs="*")
+    parser.add_argument("--check", action="store_true")
+    given = parser.parse_args()
+    if given.folders:
+        data.take(given.folders)
+    scenes = data.read()
+    if given.check:
+        sys.exit(0 if check(scenes) else 1)
+    for page in pages:
+        page.write_text(with_tables(page.read_text(encoding="utf-8"), scenes), encoding="utf-8")
+    draw(scenes)
+
+
+if __name__ == "__main__":
+    main()
