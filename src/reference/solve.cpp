@@ -142,11 +142,12 @@ static bool stalled(const std::vector<double>& changes) {
 namespace {
 
 // Whether so many more halvings bring the change down to the tolerance if they go on as the last three did.
+// True as well where these have not brought it down, which stalled() judges.
 bool falls(const std::vector<double>& changes, double tolerance, double halvings) {
     constexpr size_t some = 3;
     if (changes.size() <= some) return true;
     const double last = changes.back(), before = changes[changes.size() - 1 - some];
-    return last * std::pow(last / before, halvings / some) <= tolerance;
+    return last >= before || last * std::pow(last / before, halvings / some) <= tolerance;
 }
 
 class Halving {
