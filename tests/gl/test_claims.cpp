@@ -108,7 +108,7 @@ TEST_CASE("what --error claims of random scenes", "[.claims-table]") {
         }
 }
 
-TEST_CASE("a step is measured as a run takes it, whatever was measured before", "[claims]") {
+TEST_CASE("a step is measured as a run takes it, whatever was measured before", "[claims][fused]") {
     // contact treats it as a body within a frame, and not within a 64th of it
     Scene scene;
     scene.frameRate = 5;
