@@ -22,7 +22,7 @@ import data
 import grid
 
 pages = here.parent / "accuracy.md", here.parent.parent / "README.md"
-# What a figure depends on: the data are as old as the commit that they are of.
+# Figures depend on these: the data are as old as the commit that they are of.
 sources = ("shaders/physics", "shaders/solver", "shaders/step", "shaders/fused", "src/compile", "src/measure", "src/reference",
            "src/simulate")
 

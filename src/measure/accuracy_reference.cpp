@@ -237,11 +237,16 @@ Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
 
 void ExactEnds::solveEach(const std::vector<size_t>& which, double tolerance, double secondsAMolecule,
                           const TimeLimit& limit) {
-    std::mutex guard;  // of what is told
+    std::mutex guard;  // of why_ and cutShort_
+    cutShort_ = false;
     parallel(int(which.size()), cores_, [&](int i) {
         ExactMolecule& molecule = molecules_[which[size_t(i)]];
         const double seconds = std::min(secondsAMolecule, limit.left());
-        if (seconds <= 0) return;
+        if (seconds <= 0) {
+            const std::lock_guard lock(guard);
+            cutShort_ = true;
+            return;
+        }
         if (3 * groups_[molecule.group].steps * secondsPerStep_ >= 2 * secondsAMolecule) {
             const std::lock_guard lock(guard);
             tooStiff(molecule, secondsAMolecule);
@@ -252,6 +257,9 @@ void ExactEnds::solveEach(const std::vector<size_t>& which, double tolerance, do
         if (solution.ended != reference::Ended::outOfTime || seconds == secondsAMolecule) {
             const std::lock_guard lock(guard);
             molecule.chaotic = judge(molecule, solution, seconds) == Settled::chaotic;
+        } else {
+            const std::lock_guard lock(guard);
+            cutShort_ = true;
         }
         if (solution.error >= molecule.bound) return;
         molecule.bound = solution.error;

@@ -89,6 +89,8 @@ class ExactEnds {
                    const TimeLimit& limit);
     // A bound of the error of a molecule's end; infinity where nothing is known of it.
     double bound(size_t molecule) const { return molecules_[molecule].bound; }
+    // Whether the last solveEach() had less time than a molecule might have taken.
+    bool cutShort() const { return cutShort_; }
     // Whether more time would not help.
     bool chaotic(size_t molecule) const { return molecules_[molecule].chaotic; }
 
@@ -135,6 +137,7 @@ class ExactEnds {
     int cores_;
     double secondsPerStep_ = 0, tolerance_ = 1e30, error_ = 1e30;
     std::string why_;
+    bool cutShort_ = false;
 };
 
 }  // namespace shoal::measure

@@ -1,4 +1,4 @@
-// What a run tells of itself while it goes on: strains, contacts, and an estimate of its error, in a share of
+// A run tells of itself while it goes on: strains, contacts, and an estimate of its error, in a share of
 // its time.
 //
 // It reads the simulation back between frames and changes nothing of it: the run leaves the same bits. A
@@ -20,7 +20,10 @@ class Diagnostics {
     // Once at the start and after each frame. Returns whether there is another reading.
     bool follow();
     // Takes the state as another one than the frames have made.
-    void forget() { stretches_.forget(); }
+    void forget() {
+        stretches_.forget();
+        stepped_ = false;
+    }
     // Takes a last reading, with references for about so many seconds.
     void finish(double seconds);
     // Nothing: none has been taken yet.

@@ -85,11 +85,12 @@ void MethodRunner::set(Step step) {
         });
     };
     const auto known = std::find_if(simulations_.begin(), simulations_.end(), fits);
-    if (known == simulations_.end()) {
+    // A step that is refused serves only to look at what steps cost: any simulation will do.
+    if (known == simulations_.end() && (!simulation_ || refusal(step).empty())) {
         simulations_.push_back(std::make_unique<Simulation>(*device_.context, compile(sceneAt(step)),
                                                             simulationOptions(device_)));
         simulation_ = simulations_.back().get();
-    } else {
+    } else if (known != simulations_.end()) {
         simulation_ = known->get();
     }
     step_ = step;

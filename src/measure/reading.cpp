@@ -126,10 +126,10 @@ std::string whyBroken(const Requirement& requirement, const Reading& reading, bo
     }
     // as --error claims: 99 of 100 molecules are known to be below
     if (ofError && 100 * reading.unknown > reading.judged)
-        return concat("of ", reading.unknown, " of ", many(reading.judged, "molecule", "molecules"),
-                      " it is not known at ", reading.time, " s, frame ", reading.frame,
+        return concat("the error of ", reading.unknown, " of ", many(reading.judged, "molecule", "molecules"),
+                      " is not known at ", reading.time, " s, frame ", reading.frame,
                       ": chaotic, or too stiff for a reference in the time there was");
-    if (!value && end) return concat("it is not known by the end, frame ", reading.frame);
+    if (!value && end) return concat(name(quantity), " is not known by the end, frame ", reading.frame);
     return {};
 }
 

@@ -58,7 +58,7 @@ struct Requirement {
     double limit = 0;
     std::string text;  // as it was given
 };
-// Of "overlap<1e-4, error<1e-3". Error: says what is wrong in it.
+// Reads "overlap<1e-4, error<1e-3". Error: says what is wrong in it.
 std::vector<Requirement> requirementsOf(const std::string& text);
 // Why the reading does not hold to it, in a clause; empty: it does, or what it asks for is not known yet. At
 // the end of a run, what is not known does not hold.

@@ -102,7 +102,7 @@ std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
     return out;
 }
 
-// Whether it did. What an earlier method settled better stays.
+// Returns whether it did. Ends that an earlier method has settled better stay.
 bool MoleculeSample::settleBy(SolverKind kind) {
     MethodRunner method(scene_, Method{kind, {}}, device_);
     int substeps = 16;

@@ -18,7 +18,7 @@ struct SampleError {
     double rms = 0, worst = 0;  // of the molecules whose error is known
     int molecules = 0;          // all of the sample
     int above = 0;              // of them, above the error wanted
-    // Of them, not known to be below or above it: chaotic, finer than floats tell, too stiff, or no time was
+    // Neither known to be below it nor above: chaotic, finer than floats tell, too stiff, or no time was
     // left for their reference.
     int unknown = 0;
 
@@ -39,10 +39,10 @@ class MoleculeSample {
     void settle();
     // All but one of a hundred.
     bool settled() const { return 100 * unsettled() <= molecules(); }
-    bool outOfTime() const { return limit_.over(); }
+    bool outOfTime() const { return limit_.over() || exact_.cutShort(); }
     int unsettled() const;
     int molecules() const { return int(molecules_.size()); }
-    // Why a molecule has no reference; empty: each has.
+    // Why a molecule had no reference; empty: each that had its time has one.
     const std::string& why() const { return exact_.why(); }
     // Whether one of the first molecules has a reference: without, nothing on the device can be judged.
     bool hasReference() const;

@@ -402,7 +402,7 @@ class Study {
             out_.notes.push_back(concat("--seconds ", *options_.seconds, " is too short for all of it: ",
                                         out_.seeds, " of ", options_.seeds, " seeds"));
         if (out_.seeds < claimedSeeds)
-            out_.notes.push_back(concat("of ", out_.seeds, " seeds intervals are wide: a claim takes ",
+            out_.notes.push_back(concat("the intervals of ", out_.seeds, " seeds are wide: a claim takes ",
                                         claimedSeeds, " and more"));
         if (!out_.reference.settled)
             out_.notes.push_back(

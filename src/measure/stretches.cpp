@@ -151,8 +151,8 @@ void Stretches::close() {
         for (size_t m = 0; m < ends.size(); ++m) {
             SampledState& start = open_->molecules[g][m];
             if (start.alive && ends[m].alive && start.released == ends[m].released)
-                ended_.push_back({g, range.first + int(m), std::move(start), std::move(ends[m].state),
-                                  simulation_.parameters});
+                ended_.push_back(
+                    {g, range.first + int(m), std::move(start), std::move(ends[m].state), parameters_});
         }
     }
     // of all groups alike, however few there is time for
@@ -168,27 +168,30 @@ void Stretches::forget() {
     open_.reset();
     ended_.clear();
     judged_.clear();
+    stepped_ = false;
     outdated_ = judging_.valid();
 }
 
 bool Stretches::follow() {
     const int frames = std::exchange(frames_, simulation_.frames());
     const double time = std::exchange(time_, simulation_.time());
-    const bool goesOn = frames_ == frames + 1 && time_ > time && simulation_.parameters == parameters_;
-    if (!goesOn) {
+    const bool others = !(simulation_.parameters == parameters_);
+    if (others || frames_ != frames || time_ != time) {
+        const bool goesOn = !others && frames_ == frames + 1 && time_ > time;
+        if (!goesOn) forget();
         parameters_ = simulation_.parameters;
-        forget();
+        stepped_ = goesOn;
     }
     if (open_ && time_ >= open_->start + options_.duration * (1 - 1e-9)) close();
     const double moment = options_.clock();
     if (judging_.valid()) {
-        if (judging_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return goesOn;
+        if (judging_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return stepped_;
         take(judging_.get());
     }
-    if (!duty_.allows(moment)) return goesOn;
+    if (!duty_.allows(moment)) return stepped_;
     if (!open_ && (ended_.empty() || moment > endedAt_ + stale)) open();
     if (!ended_.empty()) judging_ = std::async(std::launch::async, nextJudgement());
-    return goesOn;
+    return stepped_;
 }
 
 // The work of the first that waits; it may be done in another thread.
@@ -218,13 +221,14 @@ std::function<Stretches::Judged()> Stretches::nextJudgement() {
         const reference::Solution solution =
             reference::solve(problem, start, out.duration, tolerance, 12, seconds);
         const double error = errorFrom(solution.state);
-        if (!std::isfinite(error))
+        if (!std::isfinite(errorFrom(start)))
             out.error = std::numeric_limits<double>::infinity();  // it blew up
         else if (solution.error <= tolerance(solution.state))
             out.error = error;
         reference::State end = ended->end;
         end.time = solution.state.time;  // on which the muscles' rest lengths depend
-        out.energy = energyGain(problem, start, solution.state, end);
+        const double energy = energyGain(problem, start, solution.state, end);
+        if (std::isfinite(energy)) out.energy = energy;
         out.seconds = steadySeconds() - before;
         return out;
     };

@@ -60,8 +60,9 @@ class Stretches {
     Stretches(const Scene& scene, const Simulation& simulation, const DiagnosticsOptions& options);
     ~Stretches();
 
-    // Once at the start and after each frame. False: time and frames have not gone on by one, or parameters
-    // are others, and all begins anew.
+    // Once at the start and after each frame; once more changes nothing. False: the state is not that of a
+    // frame which was followed. Where time and frames have not gone on by one, or parameters are others, all
+    // begins anew.
     bool follow();
     // Forgets what was read: the state is another.
     void forget();
@@ -70,7 +71,7 @@ class Stretches {
     void finish(double seconds);
     // Error, energy, and of what they are.
     void tell(Reading& reading) const;
-    // Of groups, why they have no error.
+    // Why groups have no error.
     const std::vector<Warning>& unknownGroups() const { return unknown_; }
 
   private:
@@ -104,6 +105,7 @@ class Stretches {
     std::deque<Judged> judged_;  // the last
     std::future<Judged> judging_;
     bool outdated_ = false;  // what is being judged
+    bool stepped_ = false;   // to the state by a frame that was followed
     Parameters parameters_;
     int frames_;
     double time_;  // s

@@ -168,6 +168,11 @@ void PySimulation::step(int frames) {
     simulation.check();
 }
 
+void PySimulation::restart() {
+    use().restart();
+    if (diagnostics_) diagnostics_->forget();
+}
+
 void PySimulation::close() {
     if (simulation_) enter(*device_);
     diagnostics_.reset();

@@ -59,7 +59,7 @@ class PySimulation {
     ~PySimulation();
 
     void step(int frames);
-    void restart() { use().restart(); }
+    void restart();
     void close();
 
     double time() { return use().time(); }
@@ -75,7 +75,7 @@ class PySimulation {
     void setState(const py::object& group, const std::optional<Array>& positions,
                   const std::optional<Array>& velocities);
     py::dict energy(const py::object& group);
-    // Of measure::Reading, of now. Error: it was made without.
+    // A measure::Reading, of now. Error: it was made without.
     py::dict diagnostics();
 
     py::array picture(int width, int height, const std::optional<Vector3>& eye,

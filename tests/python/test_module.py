@@ -80,8 +80,10 @@ def test_a_run_tells_strain_and_error():
         told = simulation.diagnostics()
         assert told["strain"] == pytest.approx(0.2, rel=1e-5) and told["rms_strain"] == pytest.approx(0.025**0.5, rel=1e-5)
         assert told["error"] is None and told["overlap"] is None and told["error_molecules"] == 0
-        simulation.step(60)
+        for _ in range(60):
+            simulation.step(1)
         told = simulation.diagnostics()
+        assert told["error_duration"] == pytest.approx(1)
         assert told["frame"] == 60 and told["error_molecules"] == 2 and told["error_unknown"] == 0
         assert 0 < told["error"] <= told["worst_error"] < 1e-3
     with shoal.Simulation(pairs(), diagnostics=False) as simulation, pytest.raises(shoal.Error, match="diagnostics=False"):

@@ -34,7 +34,7 @@ TEST_CASE("a reading breaks what it is above, and at the end what is not known",
     reading.frame = 30;
     reading.time = 0.5;
     CHECK(whyBroken(strain, reading, false).empty());
-    CHECK(whyBroken(strain, reading, true) == "it is not known by the end, frame 30");
+    CHECK(whyBroken(strain, reading, true) == "strain is not known by the end, frame 30");
     reading[Diagnostic::strain] = 0.05;
     CHECK(whyBroken(strain, reading, true).empty());
     reading[Diagnostic::strain] = 0.1;

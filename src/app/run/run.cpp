@@ -144,7 +144,7 @@ class HeadlessRun {
         simulation_.timers().drain();
         if (renderer_) renderer_->timers().drain();
         report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (diagnostics_) outside([&] { diagnostics_->finish(); });
+        if (diagnostics_) outside([&] { diagnostics_->finish(!signalThatAsked()); });
     }
 
     void runFrames() {

@@ -46,11 +46,11 @@ bool RunDiagnostics::follow() {
     return true;
 }
 
-void RunDiagnostics::finish() {
+void RunDiagnostics::finish(bool whole) {
     constexpr double seconds = 0.1, secondsToJudge = 10;
     if (!broken_.empty()) return;  // the reading that broke it is the last
-    diagnostics_.finish(judgesError_ ? secondsToJudge : seconds);
-    take(true);
+    diagnostics_.finish(judgesError_ && whole ? secondsToJudge : seconds);
+    take(whole);
 }
 
 void RunDiagnostics::print(std::ostream& out) const {

@@ -17,8 +17,9 @@ class RunDiagnostics {
 
     // Once at the start and after each frame. Returns whether there is another reading.
     bool follow();
-    // Takes the last reading.
-    void finish();
+    // Takes the last reading. `whole`: the run has come to its end, so that what it does not know of itself
+    // by then does not hold, and references that are required are worth a wait.
+    void finish(bool whole);
     // Which requirement does not hold, and why, in a line; empty: all hold, as far as is known.
     const std::string& broken() const { return broken_; }
 
