@@ -85,6 +85,7 @@ class Sweep {
             return;
         }
         static_cast<MethodOnBoth&>(curve) = makeReady(method, few_, many_, ladder_, device_);
+        limit_.leaveOut(curve.compiling);
         if (!curve.refused.empty()) return refuse(curve, ladder_.front(), curve.refused);
         curve.done = false;
         curve.few->restart();

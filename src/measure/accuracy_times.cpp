@@ -7,8 +7,7 @@ namespace shoal::measure {
 
 namespace {
 
-constexpr double slowFrameSeconds = 0.1;  // above: single frames are timed
-constexpr double sampleSeconds = 0.002;   // shorter samples are mostly noise
+constexpr double sampleSeconds = 0.002;  // shorter samples are mostly noise
 constexpr int leastSamples = 3, mostSamples = 15;
 constexpr double usualSeconds = 30;  // of all samples, where nothing bounds them
 

@@ -122,16 +122,16 @@ void MethodRunner::run(int frames) {
 double MethodRunner::secondsOfFrame(Step step) {
     set(step);
     restart();
-    double least = 1e30;
-    for (int i = 0; i < 3; ++i) {
+    const auto secondsOfNext = [this] {
         finish();
-        const double seconds = secondsOf([this] {
+        return secondsOf([this] {
             frame();
             finish();
         });
-        if (i > 0) least = std::min(least, seconds);
-    }
-    return least;
+    };
+    secondsOfNext();
+    const double seconds = secondsOfNext();
+    return seconds > slowFrameSeconds ? seconds : std::min(seconds, secondsOfNext());
 }
 
 std::vector<Snapshot> MethodRunner::snapshots() const {
@@ -149,26 +149,30 @@ int64_t MethodRunner::vertices() const {
 }
 
 FrameCost frameCost(MethodRunner& runner) {
-    constexpr Step few{4, 1}, more{32, 1};
-    const double a = runner.secondsOfFrame(few), b = runner.secondsOfFrame(more);
+    constexpr Step few{4, 1};
+    const double a = runner.secondsOfFrame(few);
+    const Step more{a > slowFrameSeconds ? 8 : 32, 1};
+    const double b = runner.secondsOfFrame(more);
     const double each = std::max(0.0, (b - a) / (more.substeps - few.substeps));
     return {std::max(0.0, a - each * few.substeps), each};
 }
 
 MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many,
                        const std::vector<Step>& steps, const AccuracyDevice& device) {
-    MethodOnBoth out{method,
-                     std::make_unique<MethodRunner>(few, method, device),
-                     std::make_unique<MethodRunner>(many, method, device),
-                     {},
-                     {}};
+    MethodOnBoth out{.method = method,
+                     .few = std::make_unique<MethodRunner>(few, method, device),
+                     .many = std::make_unique<MethodRunner>(many, method, device)};
     for (const Step& step : steps) {
         out.refused = out.few->refusal(step);
         if (!out.refused.empty()) continue;
         try {
-            out.few->set(step);
-            out.many->set(step);
-            pinRasteriserThreads();
+            out.compiling = secondsOf([&] {
+                for (MethodRunner* runner : {out.few.get(), out.many.get()}) {
+                    runner->set(step);
+                    pinRasteriserThreads();
+                    runner->warmUp();
+                }
+            });
             out.manyCost = frameCost(*out.many);
         } catch (const Error& error) {
             out.refused = error.what();

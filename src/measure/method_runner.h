@@ -55,6 +55,8 @@ SimulationOptions simulationOptions(const AccuracyDevice& device);  // nothing i
 // The scene with at most so many molecules of each group, pins that are never released.
 Scene withMolecules(Scene scene, int most);
 
+constexpr double slowFrameSeconds = 0.1;  // above, single frames are timed
+
 class MethodRunner {
   public:
     MethodRunner(Scene scene, Method method, const AccuracyDevice& device);
@@ -76,7 +78,8 @@ class MethodRunner {
     double warmUp();
     // A whole run from the start: `frames` of the scene's own.
     void run(int frames);
-    // Seconds that one frame at this step takes: the shorter of two after one that is not timed.
+    // Seconds that one frame at this step takes: the shorter of two after one that is not timed, or where
+    // frames are long the one.
     double secondsOfFrame(Step step);
 
     std::vector<Snapshot> snapshots() const;  // one a group
@@ -118,8 +121,9 @@ struct SmallestError {
 struct MethodOnBoth {
     Method method;
     std::unique_ptr<MethodRunner> few, many;
-    FrameCost manyCost;
-    std::string refused;  // why it takes no step; empty: it is ready
+    FrameCost manyCost = {};
+    double compiling = 0;      // s, until both had run their first frame
+    std::string refused = {};  // why it takes no step; empty: it is ready
 };
 // Compiles the method for the first of the steps that it takes, and looks at what frames of many cost.
 MethodOnBoth makeReady(const Method& method, const Scene& few, const Scene& many,

@@ -34,6 +34,8 @@ class TimeLimit {
     // Likewise, with less time from the same start.
     TimeLimit part(double share) const;
     const std::optional<double>& seconds() const { return seconds_; }
+    // Does not count so many seconds that have passed.
+    void leaveOut(double seconds) { start_ += seconds; }
 
   private:
     std::optional<double> seconds_;

@@ -134,6 +134,10 @@ TEST_CASE("a limit of time is left to later stages where an early one needs less
     CHECK(limit.over(0.2));
     CHECK(limit.left(0.2) == 0);
     CHECK_FALSE(limit.over());
+    TimeLimit longer = limit;
+    longer.leaveOut(3);
+    CHECK(longer.left() == 10);
+    CHECK(longer.left(0.2) == 2);
     clock = 1e9;
     CHECK(limit.over());
     const TimeLimit none({}, [&] { return clock; });
