@@ -375,8 +375,7 @@ const char* name(Outcome outcome) {
 
 AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,
                                const AccuracyDevice& device, const AccuracyProgress& progress) {
-    if (scene.groups.empty())
-        throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to measure");
+    requireReference(scene);
     AccuracyReport out = Sweep(scene, options, device, progress).run();
     for (const Group& group : scene.groups)
         if (group.release)

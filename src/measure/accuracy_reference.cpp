@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "compile/surface_pair.h"
+#include "core/contract.h"
 #include "core/parallel.h"
 #include "measure/timing.h"
 #include "reference/forces.h"
@@ -50,6 +51,14 @@ std::optional<Warning> whyNoReference(const Scene& scene, const Group& group) {
                    concat("the reference knows no ", unknown->first, ": nothing to measure against")};
 }
 
+void requireReference(const Scene& scene) {
+    if (scene.groups.empty())
+        throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to measure");
+    for (const Group& group : scene.groups)
+        if (const std::optional<Warning> why = whyNoReference(scene, group))
+            throw Error(why->location, why->message);
+}
+
 std::string beyondReference(const Scene& scene) {
     for (const Group& group : scene.groups) {
         if (const auto unknown = unknownTo(scene, group)) return unknown->first;
@@ -72,8 +81,7 @@ reference::Problem springsOf(const Scene& scene, const Group& group, double scal
 }
 
 reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase) {
-    if (const std::optional<Warning> why = whyNoReference(scene, group))
-        throw Error(why->location, why->message);
+    EXPECTS(!whyNoReference(scene, group));
     reference::Problem out = springsOf(scene, group, scale, phase);
     out.drag = group.drag;
     out.fields = scene.fields;

@@ -18,7 +18,9 @@ namespace shoal::measure {
 reference::Problem springsOf(const Scene& scene, const Group& group, double scale, double phase);
 // Why the reference does not know how a molecule of the group moves by itself, located; nothing: it does.
 std::optional<Warning> whyNoReference(const Scene& scene, const Group& group);
-// The molecule with all that acts on it. Error: whyNoReference.
+// Error: whyNoReference, of the first group that has none; or the scene has no groups.
+void requireReference(const Scene& scene);
+// The molecule with all that acts on it. The group is one of which whyNoReference says nothing.
 reference::Problem problemOf(const Scene& scene, const Group& group, double scale, double phase);
 // s of the clock that one step of its first run takes, from the start on.
 double secondsOfStep(const reference::Problem& problem, const reference::State& start, double duration);

@@ -366,8 +366,7 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
     if (options.error < ExactEnds::floor)
         throw Error(concat("--error ", options.error, " is out of reach: single floats hold the places of a ",
                            "molecule's vertices to about ", ExactEnds::floor, " of its size"));
-    if (scene.groups.empty())
-        throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to calibrate");
+    requireReference(scene);
     const Clock::time_point start = Clock::now();
     const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;

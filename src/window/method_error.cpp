@@ -23,12 +23,12 @@ constexpr double secondsAMolecule = 0.5;
 std::string methodError(const Scene& scene, const Simulation& simulation) {
     const Plan& plan = simulation.plan();
     if (plan.contact.any()) return "no error: the reference has no contact between molecules";
-    if (plan.hasLife()) return "no error: the reference has no birth and death";
     const Activity measuring("measuring the error");
     const AccuracyDevice device{.context = &simulation.context(),
                                 .cores = int(std::max(1u, std::thread::hardware_concurrency())),
                                 .path = simulation.path().path};
     try {
+        requireReference(scene);
         const Scene few = withMolecules(scene, molecules);
         MethodRunner runner(few, {plan.groups.front().solver, plan.fieldSampling}, device);
         const Step step{simulation.parameters.substeps, 1};

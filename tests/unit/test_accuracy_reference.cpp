@@ -4,7 +4,9 @@
 #include <ctime>
 
 #include "compile/plan.h"
+#include "measure/accuracy.h"
 #include "measure/accuracy_reference.h"
+#include "measure/calibrate.h"
 #include "support/catch.h"
 #include "support/shapes.h"
 
@@ -45,6 +47,17 @@ std::vector<Snapshot> startsOf(const Scene& scene) {
 }
 
 }  // namespace
+
+// Without a context: it would be needed to make a method ready.
+TEST_CASE("a scene that the reference does not know is refused before anything is made ready", "[accuracy]") {
+    Scene scene = spinning(1e4);
+    scene.groups[0].life.emplace().location = {"flock.scene.json", 3, 5, "$.groups[0].life"};
+    const auto refusal = Catch::StartsWith("flock.scene.json:3:5: the reference knows no births and deaths");
+    CHECK_THROWS_WITH(calibrate(scene, {}, {}), refusal);
+    CHECK_THROWS_WITH(measureAccuracy(scene, {}, {}), refusal);
+    scene.groups.clear();
+    CHECK_THROWS_WITH(calibrate(scene, {}, {}), Catch::Contains("no molecules to measure"));
+}
 
 TEST_CASE("a reference ends when its time is over", "[accuracy]") {
     const Molecule molecule = test::pair(0.01, 0.01, 1e12, 0);
