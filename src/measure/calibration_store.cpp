@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int layoutVersion = 6;
+constexpr int layoutVersion = 7;
 
 // The bytes of all that is added, by their number where that may differ.
 class Content {

@@ -18,6 +18,9 @@ constexpr double onSurface = 1e-12, rounding = 1e-15;
 constexpr double located = 1e-13;
 // Events are at most so many and one a step; more do not come to an end.
 constexpr int64_t fewEvents = 20000;
+// rad, that what slides turns in a step, unless that were shorter than this share of one: what stops or
+// begins to slide turns ever faster the slower it is, and steps that pass over it are of first order.
+constexpr double mostTurn = 0.5, leastShare = 1 / 64.0;
 // A distance above this, in m, is to nothing.
 constexpr double nothing = 1e20;
 // So many events in a row that take less than this share of a step are one that repeats itself.
@@ -115,20 +118,38 @@ class ContactIntegrator {
         while (left > 0) {
             deadline_.check();
             held_.keepDirections(state_.velocity);
-            tryStep(left);
+            const double most = settled_ ? std::min(left, longestSlide(h)) : left;
+            tryStep(most);
             isFinite_ = finite(trial_);
             if (!isFinite_) return accept();
             if (events_ >= budget_ || atOnce > mostAtOnce) settled_ = false;
-            if (!settled_) return finishWithoutEvents();
-            double until = left;
+            if (!settled_) {
+                if (most < left) tryStep(left);
+                return finishWithoutEvents();
+            }
+            double until = most;
             const std::optional<Event> event = earliest(until);
             accept();
-            if (!event) return;
+            left = !event && most == left ? 0 : left - until;
+            if (!event) continue;
             apply(*event);
             ++events_;
             atOnce = until > atOnceShare * h ? 0 : atOnce + 1;
-            left -= until;
         }
+    }
+
+    // The longest step, in s, in which friction (m/s^2) over speed, the rate at which what slides turns,
+    // lets nothing turn far.
+    double longestSlide(double h) {
+        double out = h;
+        if (held_.list().empty()) return out;
+        equations_.everything(state_.position, state_.velocity, state_.time, free_);
+        for (const size_t i : held_.list()) {
+            const glm::dvec3 &x = state_.position[i], &v = state_.velocity[i];
+            const double friction = held_.friction(i, x, v, free_[i]);
+            if (friction > 0) out = std::min(out, mostTurn * glm::length(v) / friction);
+        }
+        return std::max(out, leastShare * h);
     }
 
     void accept() {

@@ -116,6 +116,8 @@ class Held {
     double pressure(size_t vertex, size_t collider, const glm::dvec3& x, const glm::dvec3& v,
                     const glm::dvec3& free) const;
     double grip(size_t vertex, const glm::dvec3& x, const glm::dvec3& free) const;
+    // Friction against a vertex that slides, m/s^2; 0 for one that sticks or grazes.
+    double friction(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free) const;
     double speedAlong(size_t vertex, const glm::dvec3& v) const {
         return glm::dot(v, contacts_[vertex].direction);
     }

@@ -135,6 +135,16 @@ double Held::pressure(size_t vertex, size_t collider, const glm::dvec3& x, const
     return -1;
 }
 
+double Held::friction(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free) const {
+    const Contacts& c = contacts_[vertex];
+    if (c.sticks || c.grazes) return 0;
+    const Forces f = forces(c, x, v, free);
+    double out = 0;
+    for (size_t j = 0; j < c.count; ++j)
+        out += friction(c.collider[j]) * std::max(f.pressure[j], 0.0);
+    return out;
+}
+
 double Held::grip(size_t vertex, const glm::dvec3& x, const glm::dvec3& free) const {
     const Contacts& c = contacts_[vertex];
     if (c.count > 1) return balanced * glm::length(free) - glm::length(reply(c, x, free).acceleration);

@@ -139,6 +139,22 @@ TEST_CASE("reference: friction turns with the velocity", "[reference][contact]")
     CHECK(v.z < 0.01);  // nearly all down the slope, at half the speed
 }
 
+// With mu N = k f, k > 1: k |v| + v along the slope falls by (k^2 - 1) f a second until both are 0. With the
+// angle t between v and the slope, v = v0 tan(t/2)^(k - 1) (1 + tan(t/2)^2) / 2, which gives the way.
+TEST_CASE("reference: what slides across a rough slope turns down it as it stops", "[reference][contact]") {
+    const double a = 30 * degree, k = 1.5, f = g * std::sin(a);
+    const Point point(slope(a, k * std::tan(a)));
+    const glm::dvec3 along{std::cos(a), -std::sin(a), 0}, normal{std::sin(a), std::cos(a), 0};
+    const State start{0, {thickness * normal}, {{0, 0, 1}}};
+    const double stop = k / ((k * k - 1) * f);
+    CHECK(glm::length(integrate(point.problem, start, 0.99 * stop, 40).velocity[0]) > 0);
+    const State end = integrate(point.problem, start, 1.01 * stop, 40);
+    CHECK(end.velocity[0] == glm::dvec3(0));
+    const glm::dvec3 way = end.position[0] - start.position[0];
+    CHECK(glm::dot(way, along) == Approx(1 / (4 * f * (k * k - 1))).epsilon(1e-5));
+    CHECK(way.z == Approx(2 * k / (f * (4 * k * k - 1))).epsilon(1e-5));
+}
+
 TEST_CASE("reference: a point thrown at a sphere", "[reference][contact]") {
     SphereCollider sphere;
     sphere.center = {1, 2, 3};
