@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """docs/accuracy: the scenes of grid.py are those of the numbers that they quote, one that it measures by $SHOAL_COMMAND becomes
-data, the cells of the tables say what the points say, and the tables of the pages are those of the data."""
+data, what claims.py asks becomes a table, the cells of the tables say what the points say, and the tables of the pages are
+those of the data."""
 import importlib.util
 import json
 import pathlib
@@ -84,6 +85,36 @@ def check_measured(scratch):
         assert picture.stat().st_size > 10000
 
 
+def check_claims(scratch):
+    """Asks a test that answers as shoal-gl does, ends in the middle, goes on, and sums up."""
+    answers = scratch / "answers"
+    answers.write_text("""#!/bin/sh
+case "$SHOAL_CLAIM" in
+"1 1e-2") echo "claim,leapfrog,4,1,4e-3,0,0,6e-3,1e-2,1,0" ;;
+"2 1e-2") echo "claim,rk4,2,0.5,5e-3,0,1,2.5e-2,3e-2,9,2" ;;
+"2 1e-4") exit 1 ;;
+*) echo "refusal,out of reach, at best 0.1" ;;
+esac
+""")
+    answers.chmod(0o755)
+    words = [sys.executable, folder / "claims.py", scratch, "--scenes", "2", "--tests", answers]
+    said = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert said.returncode == 1 and "scene 2, error 1e-4" in said.stderr, said.stderr
+    answers.write_text("#!/bin/sh\necho refusal,chaotic\n")
+    said = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert said.stderr == "scene 2 of 2, error 1e-4\n", said.stderr
+    rows = data.claims_in(scratch / "claims.csv")
+    assert [row["refusal"] for row in rows] == ["", "out of reach, at best 0.1", "out of reach, at best 0.1", "",
+                                                "out of reach, at best 0.1", "chaotic"]
+    lines = report.claims_table(rows).splitlines()
+    assert lines[2] == "| 1e-2 | 2 | 0 | 1 | 1 | 2.5 | 5 | 10, 2 of 48 | 1 |", lines[2]
+    assert lines[3] == "| 1e-3 | 0 | 2 | 0 | 0 | 0 | 0 | 0, 0 of 0 | 0 |", lines[3]
+    text = (scratch / "claims.csv").read_text()
+    (scratch / "claims.csv").write_text(text.replace(rows[0]["commit"], "another"))
+    said = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert said.returncode == 1 and "is of commit another" in said.stderr and said.stderr.count("\n") == 1, said.stderr
+
+
 def check_pages():
     scenes = data.read()
     assert len(scenes) == 48
@@ -99,4 +130,6 @@ check_scenes()
 check_cells()
 with tempfile.TemporaryDirectory() as scratch:
     check_measured(pathlib.Path(scratch))
+with tempfile.TemporaryDirectory() as scratch:
+    check_claims(pathlib.Path(scratch))
 check_pages()

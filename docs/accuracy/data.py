@@ -1,11 +1,14 @@
-"""The data of docs/accuracy.md: what grid.py has measured, kept as scenes.csv and points.csv, and what an error costs."""
+"""The data of docs/accuracy.md: what grid.py has measured, kept as scenes.csv and points.csv, what claims.py has asked, kept as
+claims.csv, and what an error costs."""
 import csv
 import itertools
 import json
 import math
 import pathlib
+import shutil
 import sys
 
+import claims
 import grid
 
 here = pathlib.Path(__file__).resolve().parent
@@ -68,7 +71,13 @@ def found_in(folders):
 
 
 def take(folders):
+    asked = [folder / "claims.csv" for folder in folders if (folder / "claims.csv").exists()]
+    if asked:
+        claims.rows_of(asked[-1])
+        shutil.copy(asked[-1], here / "claims.csv")
     found = found_in(folders)
+    if asked and not found:
+        return
     names = [grid.id_of(scene) for scene in grid.scene_ids()]
     missing = [name for name in names if name not in found]
     if missing:
@@ -90,6 +99,14 @@ def read():
             row |= {key: number(row[key]) for key in ("stepsPerSecond", "error", "worst", "nanoseconds")}
             scenes[row["scene"]]["points"].append(row)
     return scenes
+
+
+def claims_in(file=here / "claims.csv"):
+    """A row a scene and error, with numbers; without a claim `found` is None."""
+    rows = claims.rows_of(file)
+    for row in rows:
+        row |= {key: number(row[key]) for key in ("asked", *claims.found_keys[1:])}
+    return rows
 
 
 # ---- What an error costs

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the tables and pictures of docs/accuracy.md from its data, docs/accuracy/scenes.csv and points.csv.
+"""Makes the tables and pictures of docs/accuracy.md from its data, docs/accuracy/scenes.csv, points.csv and claims.csv.
 
 report.py                tables and pictures; pictures by Matplotlib
 report.py --check        ends with 1 where a table of a page is not what the data say; tells the commit that they are of, and
                          which sources have changed since
-report.py FOLDER…        takes what grid.py has measured into these for the data, the last where several have a scene, then
-                         does the same as without
+report.py FOLDER…        takes what grid.py has measured and claims.py has asked into these for the data, the last where
+                         several have a scene, then does the same as without
 
 A table stands in a page between the comments `report.py: NAME` and `report.py: end`.
 """
@@ -18,6 +18,7 @@ import sys
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here), str(here.parent)]
+import claims
 import data
 import grid
 
@@ -140,6 +141,21 @@ def targets(scenes):
          ", ".join(f"`{solver}` {value:.1e}" for solver, value in least.items()).replace("e-0", "e-")]])
 
 
+def claims_table(found):
+    """A row an error that was asked for."""
+    rows = []
+    for text in claims.errors:
+        asked = [row for row in found if row["asked"] == float(text)]
+        told = [row for row in asked if row["found"] is not None]
+        above, unknown = (int(sum(row[key] for row in told)) for key in ("foundAbove", "foundUnknown"))
+        within = [sum(row["found"] <= share * row["asked"] for row in told) for share in (1, 2)]
+        most = [max((row["found"] / row[key] for row in told), default=0) for key in ("asked", "claimed")]
+        rows.append([text, str(len(told)), str(len(asked) - len(told)), *map(str, within), *(f"{value:.2g}" for value in most),
+                     f"{above}, {unknown} of {len(told) * claims.molecules:,}", str(sum(row["after"] < 0.95 for row in told))])
+    return table(["E", "claims", "refused", "found RMS below E", "below 2 E", "the largest found RMS over E",
+                  "found over claimed, at most", "molecules above E, unknown", "claims of less than 1 s"], rows)
+
+
 def commits_of(scenes):
     """How many scenes are of each commit, in the order of the tables."""
     commits = [scene["commit"] for scene in scenes.values()]
@@ -162,6 +178,7 @@ tables = {
     "costs": cost_table,
     "chosen": lambda scenes: by_stiffness(scenes, chosen_cell),
     "targets": targets,
+    "claims": lambda _: claims_table(data.claims_in()),
 }
 
 
@@ -215,8 +232,29 @@ def draw_summary(scenes, picture):
     figure.savefig(picture, dpi=110)
 
 
+def draw_claims(picture):
+    """A dot a claim: what was claimed and what was found, by what was asked for."""
+    import plot
+    figure, axes = plot.plt.subplots(figsize=(6.2, 5.4), layout="constrained")
+    rows = [row for row in data.claims_in() if row["found"]]
+    ends = [min([row["found"] for row in rows] + [1e-6]) / 2, 3e-2]
+    axes.plot(ends, ends, color="#999999", linewidth=0.8, label="found = claimed")
+    axes.plot(ends, [2 * end for end in ends], color="#999999", linewidth=0.8, linestyle="--", label="twice as much")
+    for text, color in zip(claims.errors, plot.colors.values()):
+        told = [row for row in rows if row["asked"] == float(text)]
+        axes.plot([row["claimed"] for row in told], [row["found"] for row in told], "o", color=color, markersize=5, alpha=0.8,
+                  label=f"{text} asked for")
+        axes.axvline(float(text), color=color, linewidth=0.6)
+    axes.set(xscale="log", yscale="log", xlabel="claimed error, RMS of the sample", ylabel="found error, RMS of all molecules")
+    axes.grid(color="#D8D8D8", linewidth=0.6)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=9)
+    figure.savefig(picture, dpi=110)
+
+
 def draw(scenes):
     import plot
+    draw_claims(here.parent / "accuracy-claims.png")
     for molecule in grid.molecules:
         plot.draw([as_report(scenes[grid.id_of((molecule, motion, power))])
                    for motion, power in itertools.product(grid.motions, grid.powers)], here.parent / f"accuracy-{molecule}.png")
