@@ -1,5 +1,5 @@
 """The data of docs/accuracy.md: what grid.py has measured, kept as scenes.csv and points.csv, what claims.py has asked, kept as
-claims.csv, and what an error costs."""
+claims.csv, what contact.py has measured, kept as contact.csv, and what an error costs."""
 import csv
 import itertools
 import json
@@ -9,6 +9,7 @@ import shutil
 import sys
 
 import claims
+import contact
 import grid
 
 here = pathlib.Path(__file__).resolve().parent
@@ -57,6 +58,18 @@ def write(file, keys, rows):
         writer.writerows(rows)
 
 
+contact_keys = ("scene", "substeps", "iterations", "outcome", "overlap", "largestOverlap", "energyGiven", "momentum", "contacts",
+                "minSeconds", "medianSeconds", "secondsPerContact", "front", "scenes", "commit", "date")
+
+
+def contact_rows(name, report):
+    for point in report["points"]:
+        row = {key: point.get(key) for key in contact_keys}
+        yield row | {key: short(value, 3) for key, value in row.items() if isinstance(value, float)} | {
+            "scene": name, "front": int(point.get("front", False)), "scenes": int(point.get("scenes", False)),
+            "commit": report["commit"], "date": report["date"]}
+
+
 def found_in(folders):
     """The reports by scene. A folder is of one commit; what a later one has takes the place of what an earlier one has."""
     reports = {}
@@ -75,8 +88,13 @@ def take(folders):
     if asked:
         claims.rows_of(asked[-1])
         shutil.copy(asked[-1], here / "claims.csv")
+    touching = [folder for folder in folders if (folder / "contact-pile.json").exists()]
+    if touching:
+        found = {name: json.loads((touching[-1] / f"contact-{name}.json").read_text(encoding="utf-8")) for name in contact.scenes}
+        write(here / "contact.csv", contact_keys,
+              itertools.chain.from_iterable(contact_rows(name, report) for name, report in found.items()))
     found = found_in(folders)
-    if asked and not found:
+    if (asked or touching) and not found:
         return
     names = [grid.id_of(scene) for scene in grid.scene_ids()]
     missing = [name for name in names if name not in found]
@@ -107,6 +125,17 @@ def claims_in(file=here / "claims.csv"):
     for row in rows:
         row |= {key: number(row[key]) for key in ("asked", *claims.found_keys[1:])}
     return rows
+
+
+def contact_in(file=here / "contact.csv"):
+    """The points that were measured and timed, by scene."""
+    scenes = {name: [] for name in contact.scenes}
+    with open(file, newline="", encoding="utf-8") as rows:
+        for row in csv.DictReader(rows):
+            if row["minSeconds"]:
+                row |= {key: number(row[key]) for key in contact_keys[1:3] + contact_keys[4:14]}
+                scenes[row["scene"]].append(row)
+    return scenes
 
 
 # ---- What an error costs

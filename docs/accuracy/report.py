@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the tables and pictures of docs/accuracy.md from its data, docs/accuracy/scenes.csv, points.csv and claims.csv.
+"""Makes the tables and pictures of docs/accuracy.md from its data, docs/accuracy/scenes.csv, points.csv, claims.csv and contact.csv.
 
 report.py                tables and pictures; pictures by Matplotlib
 report.py --check        ends with 1 where a table of a page is not what the data say; tells the commit that they are of, and
                          which sources have changed since
-report.py FOLDER…        takes what grid.py has measured and claims.py has asked into these for the data, the last where
-                         several have a scene, then does the same as without
+report.py FOLDER…        takes what grid.py and contact.py have measured and claims.py has asked into these for the data, the
+                         last where several have a scene, then does the same as without
 
 A table stands in a page between the comments `report.py: NAME` and `report.py: end`.
 """
@@ -156,6 +156,26 @@ def claims_table(found):
                   "found over claimed, at most", "molecules above E, unknown", "claims of less than 1 s"], rows)
 
 
+def contact_table(found):
+    """A row a scene: its defaults, and the cheapest points with a tenth and half of their overlap."""
+    rows = []
+    for name, points in found.items():
+        own = next(point for point in points if point["scenes"])
+
+        def cheapest(share):
+            within = [point for point in points if point["overlap"] <= share * own["overlap"]]
+            if not within:
+                return "none"
+            point = min(within, key=lambda each: each["minSeconds"])
+            return f"{point['substeps']:.0f} × {point['iterations']:.0f}: {point['minSeconds'] / own['minSeconds']:.2g}×"
+
+        rows.append([name, f"{own['substeps']:.0f} × {own['iterations']:.0f}", f"{own['overlap']:.1e}",
+                     f"{own['largestOverlap']:.1e}", f"{own['energyGiven']:.1e}", f"{own['momentum']:.0e}",
+                     f"{1e3 * own['minSeconds']:.3g}", f"{1e6 * own['secondsPerContact']:.2g}", cheapest(1), cheapest(0.5)])
+    return table(["scene", "its substeps × iterations", "overlap", "largest", "energy given", "momentum", "ms a frame",
+                  "µs a contact", "the cheapest with no more overlap", "with half"], rows)
+
+
 def commits_of(scenes):
     """How many scenes are of each commit, in the order of the tables."""
     commits = [scene["commit"] for scene in scenes.values()]
@@ -178,6 +198,7 @@ tables = {
     "costs": cost_table,
     "chosen": lambda scenes: by_stiffness(scenes, chosen_cell),
     "targets": targets,
+    "contact": lambda _: contact_table(data.contact_in()),
     "claims": lambda _: claims_table(data.claims_in()),
 }
 
@@ -252,8 +273,32 @@ def draw_claims(picture):
     figure.savefig(picture, dpi=110)
 
 
+def draw_contact(picture):
+    """A panel a scene, a curve a number of substeps, along which iterations grow."""
+    import plot
+    found = data.contact_in()
+    figure, panels = plot.plt.subplots(1, len(found), figsize=(13, 3.6), layout="constrained")
+    for axes, (name, points) in zip(panels, found.items()):
+        front = sorted((point["minSeconds"] * 1e3, point["overlap"]) for point in points if point["front"])
+        axes.plot(*zip(*front), linewidth=6, color="#F3E3A1", label="Pareto front")
+        for substeps, color in zip(sorted({point["substeps"] for point in points}), list(plot.colors.values())[1:]):
+            curve = [point for point in points if point["substeps"] == substeps]
+            axes.plot([1e3 * point["minSeconds"] for point in curve], [point["overlap"] for point in curve], "o-", color=color,
+                      markersize=4, linewidth=1.2, label=f"{substeps:.0f} substeps")
+        own = next(point for point in points if point["scenes"])
+        axes.plot(1e3 * own["minSeconds"], own["overlap"], "o", markersize=11, fillstyle="none", color="black",
+                  label="the scene's")
+        axes.set(xscale="log", yscale="log", title=name, xlabel="ms a frame")
+        axes.grid(color="#D8D8D8", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.legend(frameon=False, fontsize=7)
+    panels[0].set_ylabel("overlap, RMS, of the radius")
+    figure.savefig(picture, dpi=110)
+
+
 def draw(scenes):
     import plot
+    draw_contact(here.parent / "accuracy-contact.png")
     draw_claims(here.parent / "accuracy-claims.png")
     for molecule in grid.molecules:
         plot.draw([as_report(scenes[grid.id_of((molecule, motion, power))])

@@ -317,6 +317,35 @@ TEST_CASE("measure refuses what it cannot do", "[cli]") {
     refusal({"measure", "missing.scene.json"}, "missing.scene.json");
 }
 
+TEST_CASE("measure --contact reports as text, JSON and CSV", "[cli]") {
+    const Scratch scratch;
+    scratch.write("pair.scene.json", R"({"format": "shoal-scene-1", "gravity": [0, -9.81, 0],
+        "colliders": [{"type": "plane"}], "groups": [{"molecule": "point", "drag": 0, "contact": {"radius": 0.1}, "count": 2,
+        "place": {"on": "list", "items": [{"position": [0, 0.1, 0]}, {"position": [0, 0.3, 0]}]}}]})");
+    const std::string scene = scratch.path("pair.scene.json"), csv = scratch.path("contact.csv");
+    const Words words = {"measure",    scene, "--contact",    "--duration", "0.2",
+                         "--substeps", "2,4", "--iterations", "1,4"};
+    Words asJson = words;
+    asJson.insert(asJson.end(), {"--json", "--csv", csv});
+    const Outcome outcome = runShoal(asJson, cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    const std::vector<JsonValue>& points = member(report, "points").items;
+    REQUIRE(points.size() == 4);
+    for (const char* key :
+         {"overlap", "largestOverlap", "energyGiven", "momentum", "minSeconds", "secondsPerContact"})
+        CHECK(member(points[3], key).number >= 0);
+    CHECK((member(points[3], "substeps").number == 4 && member(points[3], "iterations").number == 4));
+    CHECK_THAT(readFile(csv), Catch::StartsWith("substeps,iterations,outcome,overlap,largestOverlap,"));
+    const Outcome told = runShoal(words, cacheIn(scratch));
+    CHECK_THAT(told.out, Catch::Contains("2 molecules, 2 spheres") && Catch::Contains("4 substeps\n"));
+    refusal({"measure", squaresScene(), "--contact"}, "there is no contact to measure");
+    refusal({"measure", squaresScene(), "--substeps", "4"}, "--substeps needs --statistics or --contact");
+    refusal({"measure", scene, "--contact", "--iterations", "300"},
+            "--iterations: expected a whole number from 1 to 256");
+}
+
 TEST_CASE("measure --statistics reports as text, JSON and CSV", "[cli]") {
     const Scratch scratch;
     const std::string scene = shearScene(scratch);

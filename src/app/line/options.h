@@ -100,7 +100,9 @@ struct Options : RunRequest {
     std::optional<int> molecules;          // of each group, whose error is measured
     bool statistics = false;               // of runs by many seeds, in place of errors
     int seeds = 32;                        // of these
-    std::vector<int> eachSubsteps;         // of these; empty: the scene's
+    bool contactCurve = false;             // of contact between molecules, in place of errors
+    std::vector<int> eachSubsteps;         // of both; empty: the scene's, with --contact those around it
+    std::vector<int> eachIterations;       // of contact; empty likewise
     std::string csv;                       // a file
     std::string report;                    // bench: a file
 

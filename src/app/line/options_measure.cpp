@@ -123,17 +123,27 @@ void addMeasure(CLI::App& command, Options& options) {
     addWhole(command, "--seeds", options.seeds, "With --statistics: runs, each by a seed of its own", 2,
              10000)
         ->capture_default_str();
+    command.add_flag("--contact", options.contactCurve,
+                     "Overlap, energy and momentum of contact between molecules, and its time, by substeps "
+                     "and iterations");
     addWhole(command, "--substeps", options.eachSubsteps,
-             "With --statistics: substeps of a frame, such as 4,16, instead of the scene's", 1, maxSubsteps)
+             "With --statistics or --contact: substeps of a frame, such as 4,16, instead of the scene's", 1,
+             maxSubsteps)
+        ->delimiter(',');
+    addWhole(command, "--iterations", options.eachIterations,
+             "With --contact: iterations of a contact step, instead of those around the scene's", 1,
+             ContactSettings::mostIterations)
         ->delimiter(',');
     needs(command, "--seeds", "--statistics");
-    needs(command, "--substeps", "--statistics");
+    needs(command, "--iterations", "--contact");
     addSeconds(command, options,
                "About how long all of it may take, beside compiling; leaves out what is dearest");
     section(command, reports);
     command.add_flag("--all", options.all, "Every point as text, not only the best ones");
     addFile(command, "--csv", options.csv, "Every point, or statistic, as a row of this file");
     excludes(command, "--statistics", {"--error", "--samplings", "--all"});
+    excludes(command, "--contact",
+             {"--statistics", "--error", "--solvers", "--samplings", "--molecules", "--all"});
     section(command, ofScene);
     addCountAndSeed(command, options);
     addPath(command, options);
@@ -152,6 +162,8 @@ FieldSampling samplingOf(const std::string& word) {
 void finishMeasure(Options& options) {
     if (options.command == measureCommand && options.files.empty())
         throw Error("measure: expected a scene file");
+    if (!options.eachSubsteps.empty() && !options.statistics && !options.contactCurve)
+        throw Error("--substeps needs --statistics or --contact");
     finishBench(options);
 }
 

@@ -146,6 +146,7 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
 
 int measureCommand(const Options& options) {
     if (options.statistics) return statisticsCommand(options);
+    if (options.contactCurve) return contactCommand(options);
     // known before the measuring, not after it
     if (!options.csv.empty()) checkWritable(options.csv);
     const Scene scene = readScene(options.files.front(), options);

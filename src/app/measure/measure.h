@@ -44,8 +44,8 @@ measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& con
 // For --error: finds the method, puts it into the scene and compiles that; warnings go to standard error.
 measure::Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded);
 
-// `shoal measure --statistics`.
-int statisticsCommand(const Options& options);
+int statisticsCommand(const Options& options);  // `shoal measure --statistics`
+int contactCommand(const Options& options);     // `shoal measure --contact`
 
 // Chooses and sweeps, with progress on standard error.
 MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);
