@@ -127,7 +127,8 @@ class ContactSweep {
             return out;
         };
         for (const int s : around(options_.substeps, substeps, 0.5, maxSubsteps))
-            for (const int i : around(options_.iterations, iterations, 0.25, ContactSettings::mostIterations)) {
+            for (const int i :
+                 around(options_.iterations, iterations, 0.25, ContactSettings::mostIterations)) {
                 const bool scenes = s == substeps && i == iterations;
                 order_.insert(scenes ? order_.begin() : order_.end(), out_.points.size());
                 out_.points.push_back({.substeps = s, .iterations = i, .scenes = scenes});
@@ -187,7 +188,8 @@ class ContactSweep {
         point.contacts = double(contacts) / frames_;
         const double scale = std::max(kinetic, leastEnergy_);
         if (out_.driven.empty()) point.errors.energyGiven = scale > 0 ? given / scale : given;
-        if (!holdsPins(scene_) && out_.driven.empty()) point.errors.momentum = momentumError(scene, simulation);
+        if (!holdsPins(scene_) && out_.driven.empty())
+            point.errors.momentum = momentumError(scene, simulation);
         point.outcome = Outcome::measured;
     }
 

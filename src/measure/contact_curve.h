@@ -42,17 +42,18 @@ struct ContactCurve {
     std::string scene, solver;  // solvers of its groups
     double frameRate = 60, duration = 1;
     int molecules = 0, spheres = 0;
-    std::string driven;  // what moves the molecules but gravity, so that their energy may grow; empty: nothing
+    std::string
+        driven;  // what moves the molecules but gravity, so that their energy may grow; empty: nothing
     std::vector<ContactPoint> points;  // by substeps, then iterations
     std::vector<std::string> notes;
 };
 
 struct ContactCurveOptions {
-    double duration = 1;                   // s of simulated time, rounded to whole frames
-    std::vector<int> substeps = {};        // empty: the scene's, a half, twice and four times as many
-    std::vector<int> iterations = {};      // empty: the scene's, and from a quarter to four times as many
-    int rounds = 3;                        // runs of each that are timed
-    std::optional<double> seconds = {};    // of all of it, about; the scene's own point comes first
+    double duration = 1;                 // s of simulated time, rounded to whole frames
+    std::vector<int> substeps = {};      // empty: the scene's, a half, twice and four times as many
+    std::vector<int> iterations = {};    // empty: the scene's, and from a quarter to four times as many
+    int rounds = 3;                      // runs of each that are timed
+    std::optional<double> seconds = {};  // of all of it, about; the scene's own point comes first
     std::function<void(double share)> tell = [](double) {};
 };
 

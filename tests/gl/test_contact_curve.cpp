@@ -50,8 +50,9 @@ TEST_CASE("a stack overlaps and gains less with more substeps and iterations", "
     CHECK(most.contacts == Approx(4).margin(0.1));
     CHECK(most.errors.overlap < 0.1 * least.errors.overlap);
     CHECK(*most.errors.energyGiven < 0.1 * *least.errors.energyGiven);
-    CHECK((most.front && std::any_of(curve.points.begin(), curve.points.end(),
-                                     [&](const ContactPoint& point) { return &point != &most && point.front; })));
+    CHECK((most.front &&
+           std::any_of(curve.points.begin(), curve.points.end(),
+                       [&](const ContactPoint& point) { return &point != &most && point.front; })));
 }
 
 TEST_CASE("contact's curve goes around what the scene says", "[contact-curve]") {

@@ -17,17 +17,18 @@ using namespace measure;
 namespace {
 
 constexpr Column contactColumns[] = {{"iterations", "iterations", 12},
-                              {"overlap", "overlap", 10, "%.1e"},
-                              {"largestOverlap", "largest", 10, "%.1e"},
-                              {"energyGiven", "energy", 10, "%.1e"},
-                              {"momentum", "momentum", 10, "%.1e"},
-                              {"contacts", "contacts", 10},
-                              {"minSeconds", "min ms", 10, "%.3g", 1e3},
-                              {"medianSeconds", "median ms", 10, "%.3g", 1e3},
-                              {"secondsPerContact", "ns each", 9, "%.3g", 1e9},
-                              {"marks", "", -20}};
-const char *contactCsvHead = "substeps,iterations,outcome,overlap,largestOverlap,energyGiven,momentum,contacts,steps,"
-                      "minSeconds,medianSeconds,samples,front,scenes,why",
+                                     {"overlap", "overlap", 10, "%.1e"},
+                                     {"largestOverlap", "largest", 10, "%.1e"},
+                                     {"energyGiven", "energy", 10, "%.1e"},
+                                     {"momentum", "momentum", 10, "%.1e"},
+                                     {"contacts", "contacts", 10},
+                                     {"minSeconds", "min ms", 10, "%.3g", 1e3},
+                                     {"medianSeconds", "median ms", 10, "%.3g", 1e3},
+                                     {"secondsPerContact", "ns each", 9, "%.3g", 1e9},
+                                     {"marks", "", -20}};
+const char *contactCsvHead =
+               "substeps,iterations,outcome,overlap,largestOverlap,energyGiven,momentum,contacts,steps,"
+               "minSeconds,medianSeconds,samples,front,scenes,why",
            *contactCsvKeys = contactCsvHead;
 
 JsonValue pointAsJson(const ContactPoint& point) {
@@ -69,7 +70,8 @@ std::string curveAsText(const ContactCurve& curve, const bench::MeasuredOn& mach
     out << bench::asText(machine) << "\n\"" << printable(curve.scene) << "\": " << curve.duration << " s at "
         << curve.frameRate << " frames a second, " << many(curve.molecules, "molecule", "molecules") << ", "
         << many(curve.spheres, "sphere", "spheres") << ", " << curve.solver << "\n"
-        << "overlap: RMS over all contacts and frames, of the radius of the smaller sphere; energy: given, of "
+        << "overlap: RMS over all contacts and frames, of the radius of the smaller sphere; energy: given, "
+           "of "
            "the largest kinetic energy; ms: a frame\n"
         << tableText(contactColumns, rowsOf(curve), "group");
     for (const std::string& note : curve.notes)
