@@ -41,6 +41,7 @@ static std::optional<std::pair<std::string, Location>> unknownTo(const Scene& sc
     if (group.life) return {{"births and deaths", group.life->location}};
     for (const Collider& collider : collidersOf(scene, group))
         if (collider.path) return {{"colliders that move", group.location}};
+    if (group.contact) return {{"contact between molecules", group.contact->location}};
     return {};
 }
 
@@ -62,7 +63,6 @@ void requireReference(const Scene& scene) {
 std::string beyondReference(const Scene& scene) {
     for (const Group& group : scene.groups) {
         if (const auto unknown = unknownTo(scene, group)) return unknown->first;
-        if (group.contact) return "molecules that touch one another";
         if (group.release) return "pins that let go";
     }
     return {};
@@ -87,9 +87,6 @@ reference::Problem problemOf(const Scene& scene, const Group& group, double scal
     out.fields = scene.fields;
     out.forces = reference::forcesOn(scene, group);
     out.colliders = collidersOf(scene, group);
-    for (Collider& collider : out.colliders)
-        if (group.contact)
-            collider.thickness = std::max(collider.thickness, group.contact->radius * out.scale);
     return out;
 }
 

@@ -25,7 +25,7 @@ reference::Problem problemOf(const Scene& scene, const Group& group, double scal
 // s of the clock that one step of its first run takes, from the start on.
 double secondsOfStep(const reference::Problem& problem, const reference::State& start, double duration);
 // Names something that the motion depends on and the reference does not know; empty: it knows all. Beside
-// what problemOf() refuses, contact between molecules and pins that are released.
+// what whyNoReference() names, pins that are released.
 std::string beyondReference(const Scene& scene);
 
 // Distances from the reference over the molecule's size, as reference::deviation has them; RMS over the

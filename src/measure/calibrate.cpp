@@ -358,6 +358,13 @@ Plan plainPlan(const Scene& scene) {
     return compile(plain);
 }
 
+// Whether the key of a scene whose molecules touch has all that moves them.
+bool hasWholeKey(Scene scene) {
+    for (Group& group : scene.groups)
+        group.contact.reset();
+    return beyondReference(scene).empty();
+}
+
 }  // namespace
 
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device) {
@@ -366,19 +373,27 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
     if (options.error < ExactEnds::floor)
         throw Error(concat("--error ", options.error, " is out of reach: single floats hold the places of a ",
                            "molecule's vertices to about ", ExactEnds::floor, " of its size"));
-    requireReference(scene);
+    const bool touching = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                      [](const Group& group) { return group.contact.has_value(); });
+    if (!touching) requireReference(scene);
     const Clock::time_point start = Clock::now();
     const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
-    Search search(scene, options, device);
-    Calibration out = search.run();
-    const bool whole = !search.late() && !search.hurried();
+    std::optional<Search> search;
+    Calibration out =
+        touching ? calibrateContact(scene, options, device) : search.emplace(scene, options, device).run();
+    const bool whole = search ? !search->late() && !search->hurried() : hasWholeKey(scene);
     out.seconds = secondsSince(start);
     if (whole) keepCalibration(options.folder, key, out);
     return out;
 }
 
 void apply(const Calibration& calibration, Scene& scene) {
+    if (calibration.contact) {
+        scene.solver.substeps = calibration.substeps;
+        scene.contact.iterations = calibration.contact->iterations;
+        return;
+    }
     scene.solver.kind = calibration.method.solver;
     scene.solver.fieldSampling = calibration.method.sampling;
     scene.solver.substeps = calibration.substeps;

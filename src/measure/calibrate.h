@@ -4,6 +4,11 @@
 // longer beat the best. Those that get there are timed again, in turn. The result must hold over a sample of
 // some hundred molecules, or it takes more substeps: the claimed error is that of the sample.
 //
+// Where molecules touch, paths part, and what can be wanted of them is that they do not overlap: there it
+// chooses the substeps and iterations of contact, the cheapest of its curve (measure/contact_curve.h) at
+// which spheres overlap by less than the error of their radius, RMS. The solver stays what the scene runs
+// with.
+//
 // The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
 // on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,
 // the kernels, the driver, the processor, the version. A search that ran out of time is not kept.
@@ -17,6 +22,7 @@
 
 #include "compile/plan.h"
 #include "core/json.h"
+#include "measure/contact_curve.h"
 #include "measure/method_runner.h"
 #include "measure/sample.h"
 
@@ -63,13 +69,18 @@ struct Calibration {
     double duration = 0;  // s, after which the error was taken
     std::string why;
     std::vector<Candidate> candidates;
-    bool kept = false;   // was found before
-    double seconds = 0;  // that the search took
+    std::optional<ContactPoint> contact;  // where molecules touch: in place of method, sample and cost
+    bool kept = false;                    // was found before
+    double seconds = 0;                   // that the search took
 };
 
 // Error: no method gets there, or none in time: which is best, with which step, how near; or there is no
 // reference; or the error is below what single floats hold, which is told before anything is measured.
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device);
+
+// Chooses for contact between molecules. Error: as calibrate().
+Calibration calibrateContact(const Scene& scene, const CalibrationOptions& options,
+                             const AccuracyDevice& device);
 
 // The scene with what was found.
 void apply(const Calibration& calibration, Scene& scene);

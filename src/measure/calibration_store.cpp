@@ -43,7 +43,7 @@ class Content {
 
 // The shaders that a kernel is made of.
 void addShaders(Content& content, const std::string& root) {
-    for (const char* folder : {"fused", "passes", "physics", "solver", "state", "step"}) {
+    for (const char* folder : {"contact", "fused", "passes", "physics", "solver", "state", "step"}) {
         EXPECTS(fs::is_directory(fs::path(root) / folder));
         std::vector<fs::path> files;
         std::error_code none;
@@ -74,18 +74,19 @@ Method methodOf(JsonReader& reader) {
     return out;
 }
 
+std::optional<double> numberOrNull(JsonReader& reader, const char* key) {
+    const JsonValue* value = reader.raw(key);
+    if (value == nullptr || value->kind != JsonValue::Kind::number) return std::nullopt;
+    return value->number;
+}
+
 Candidate candidateOf(JsonReader& reader) {
     Candidate out;
     out.method = methodOf(reader);
     reader.need("substeps", out.substeps);
-    const auto known = [&](const char* key) -> std::optional<double> {
-        const JsonValue* value = reader.raw(key);
-        if (value == nullptr || value->kind != JsonValue::Kind::number) return std::nullopt;
-        return value->number;
-    };
-    out.error = known("error");
-    out.worst = known("worst");
-    out.cost = known("secondsPerVertexAndSecond").value_or(0);
+    out.error = numberOrNull(reader, "error");
+    out.worst = numberOrNull(reader, "worst");
+    out.cost = numberOrNull(reader, "secondsPerVertexAndSecond").value_or(0);
     reader.need("reached", out.reached);
     reader.need("why", out.why);
     return out;
@@ -108,6 +109,12 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
                     group.start.velocities, group.start.anchors, group.constants.scales,
                     group.constants.phases, group.kernel.molecule, group.kernel.forces, group.kernel.sweeps,
                     group.kernel.load, group.colliderParameters);
+    const ContactPlan& contact = plan.contact;
+    for (const ContactGroup& group : contact.groups)
+        content.add(group.radius, group.spheresOf, group.self, group.growth.x, group.growth.y);
+    content.add(contact.spheres, contact.steps, contact.settings.iterations, int(contact.settings.search),
+                int(contact.settings.response), contact.settings.neighbors, contact.settings.tolerance,
+                contact.settings.fastest.value_or(0), contact.cell, contact.pairs);
     content.add(options.error, options.duration, options.molecules, options.substeps.value_or(0),
                 options.solvers, options.samplings, options.version, options.processor);
     const gpu::ContextInfo& info = device.context->info();
@@ -117,7 +124,32 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
     return content.key();
 }
 
+static JsonValue asJson(const ContactPoint& point) {
+    return object(key("iterations", point.iterations), key("overlap", point.errors.overlap),
+                  key("largestOverlap", point.errors.largestOverlap),
+                  key("energyGiven", point.errors.energyGiven), key("momentum", point.errors.momentum),
+                  key("contacts", point.contacts), key("steps", point.steps),
+                  key("secondsPerFrame", point.time.min));
+}
+
+static ContactPoint contactPointOf(JsonReader& reader) {
+    ContactPoint out;
+    reader.need("iterations", out.iterations, Range::between(1, ContactSettings::mostIterations));
+    reader.need("overlap", out.errors.overlap);
+    reader.need("largestOverlap", out.errors.largestOverlap);
+    out.errors.energyGiven = numberOrNull(reader, "energyGiven");
+    out.errors.momentum = numberOrNull(reader, "momentum");
+    reader.need("contacts", out.contacts);
+    reader.need("steps", out.steps);
+    reader.need("secondsPerFrame", out.time.min);
+    return out;
+}
+
 JsonValue asJson(const Calibration& calibration) {
+    if (calibration.contact)
+        return object(key("target", calibration.target), key("substeps", calibration.substeps),
+                      key("contact", asJson(*calibration.contact)), key("duration", calibration.duration),
+                      key("why", calibration.why), key("seconds", calibration.seconds));
     return object(key("target", calibration.target), key("solver", name(calibration.method.solver)),
                   key("fieldSampling", name(calibration.method.sampling)),
                   key("substeps", calibration.substeps), key("error", calibration.error),
@@ -137,9 +169,18 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
         const JsonValue value = readJson(file.string());
         JsonReader reader(value, file.string());
         Calibration out;
-        out.method = methodOf(reader);
+        out.kept = true;
         reader.need("target", out.target);
         reader.need("substeps", out.substeps, Range::between(1, maxSubsteps));
+        reader.need("duration", out.duration);
+        reader.need("why", out.why);
+        reader.need("seconds", out.seconds);
+        if (std::optional<JsonReader> contact = reader.object("contact")) {
+            out.contact = contactPointOf(*contact);
+            out.error = out.contact->errors.overlap;
+            return out;
+        }
+        out.method = methodOf(reader);
         reader.need("error", out.error);
         out.sample.rms = out.error;
         reader.need("worst", out.sample.worst);
@@ -148,12 +189,8 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
         reader.need("unknown", out.sample.unknown);
         reader.need("how", out.how);
         reader.need("secondsPerVertexAndSecond", out.cost);
-        reader.need("duration", out.duration);
-        reader.need("why", out.why);
-        reader.need("seconds", out.seconds);
         for (JsonReader& candidate : reader.objects("candidates"))
             out.candidates.push_back(candidateOf(candidate));
-        out.kept = true;
         return out;
     } catch (const Error&) {
         return std::nullopt;

@@ -113,9 +113,6 @@ Stretches::Stretches(const Scene& scene, const Simulation& simulation, const Dia
     for (const GroupPlan& plan : simulation.plan().groups) {
         const Group& group = scene.groups[plan.index];
         std::optional<Warning> why = whyNoReference(scene, group);
-        if (!why && group.contact)
-            why = Warning{group.contact->location,
-                          "the reference knows no contact between molecules: nothing to measure against"};
         if (why) unknown_.push_back({why->location, concat("group \"", plan.name, "\": ", why->message)});
         groups_.push_back(why ? nullptr : std::make_shared<GroupReference>(scene, group));
         samples_.emplace_back(plan.count, why ? 0 : options.molecules);

@@ -340,6 +340,10 @@ TEST_CASE("measure --contact reports as text, JSON and CSV", "[cli]") {
     CHECK_THAT(readFile(csv), Catch::StartsWith("substeps,iterations,outcome,overlap,largestOverlap,"));
     const Outcome told = runShoal(words, cacheIn(scratch));
     CHECK_THAT(told.out, Catch::Contains("2 molecules, 2 spheres") && Catch::Contains("4 substeps\n"));
+    const Words asked = {"explain", scene, "--error", "0.05", "--substeps", "4"};
+    CHECK_THAT(runShoal(asked, cacheIn(scratch)).out,
+               Catch::Contains("iterations of contact; over 1 s spheres"));
+    CHECK_THAT(runShoal(asked, cacheIn(scratch)).out, Catch::Contains("as found before"));
     refusal({"measure", squaresScene(), "--contact"}, "there is no contact to measure");
     refusal({"measure", squaresScene(), "--substeps", "4"}, "--substeps needs --statistics or --contact");
     refusal({"measure", scene, "--contact", "--iterations", "300"},

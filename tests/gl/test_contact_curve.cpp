@@ -1,6 +1,6 @@
 // What contact between molecules gets wrong, by its substeps and iterations.
 #include "gl/marbles.h"
-#include "measure/contact_curve.h"
+#include "measure/calibrate.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
 
@@ -73,6 +73,30 @@ TEST_CASE("contact's curve goes around what the scene says", "[contact-curve]") 
     CHECK(hurried.notes.front() == "--seconds 0.001 is too short for 19 of 20 points");
     scene.groups[0].contact.reset();
     CHECK_THROWS_WITH(measured(scene, {}), Catch::Contains("there is no contact to measure"));
+}
+
+TEST_CASE("an error that is asked for of molecules that touch chooses their contact", "[contact-curve]") {
+    const AccuracyDevice device{.context = &testContext(), .path = testPath()};
+    CalibrationOptions options;
+    options.duration = 0.3;
+    options.error = 0.05;
+    options.substeps = 4;
+    Scene scene = stack();
+    const Calibration found = calibrate(scene, options, device);
+    REQUIRE(found.contact);
+    CHECK(found.error == found.contact->errors.overlap);
+    CHECK(found.error <= 0.05);
+    apply(found, scene);
+    CHECK(scene.solver.substeps == 4);
+    CHECK(scene.contact.iterations == found.contact->iterations);
+    options.error = 1e-6;
+    CHECK_THROWS_WITH(
+        calibrate(scene, options, device),
+        Catch::Contains("--error 1e-06 is out of reach for contact between molecules: the nearest is 4"));
+    options.solvers = {SolverKind::euler};
+    CHECK_THROWS_WITH(calibrate(scene, options, device), Catch::Contains("remove --solver"));
+    CHECK_THROWS_WITH(measureAccuracy(scene, {}, device),
+                      Catch::Contains("the reference knows no contact between molecules"));
 }
 
 }  // namespace shoal

@@ -135,7 +135,7 @@ TEST_CASE("what touches has its reference on the device, and places from a grid 
     CHECK_FALSE(report.reference.isDouble);
     CHECK(report.reference.solver == "leapfrog");
     CHECK(report.reference.substeps == 16);
-    CHECK(report.reference.why == "molecules that touch one another");
+    CHECK(report.reference.why == "contact between molecules");
     CHECK(report.displaced == 1e-6);
     // starts that are nearly alike leave nothing to chance, and the heap settles by its step
     CHECK_FALSE(report.reference.settled);

@@ -207,17 +207,37 @@ static std::string sampleText(const Calibration& calibration) {
     return out;
 }
 
+// What was chosen of contact: where molecules touch, no error of their paths is claimed.
+static std::string contactText(const Calibration& calibration) {
+    const ContactPoint& point = *calibration.contact;
+    std::string out =
+        concat("error ", calibration.target, ": ", many(calibration.substeps, "substep", "substeps"),
+               " a frame with ", many(point.iterations, "iteration", "iterations"), " of contact; over ",
+               calibration.duration, " s spheres overlap by ", exponent(point.errors.overlap), " RMS and ",
+               exponent(point.errors.largestOverlap), " at most of their radius");
+    if (point.errors.energyGiven)
+        out += concat(", contact gives ", exponent(*point.errors.energyGiven), " of the energy");
+    return concat(out, "; ", shortNumber(point.time.min * 1e3), " ms a frame");
+}
+
+static std::string foundText(const Calibration& calibration) {
+    return calibration.kept ? "as found before"
+                            : concat("found in ", formatted("%.1f", calibration.seconds), " s");
+}
+
 std::string oneLine(const Calibration& calibration) {
+    if (calibration.contact) return concat(contactText(calibration), ", ", foundText(calibration));
     return concat("error ", calibration.target, ": ", shoal::name(calibration.method.solver), ", ",
                   calibration.substeps, calibration.substeps == 1 ? " substep" : " substeps",
                   " a frame, fields by ", shoal::name(calibration.method.sampling), "; ",
                   sampleText(calibration), "; ", shortNumber(calibration.cost * 1e9),
-                  " ns per vertex and simulated second, ",
-                  calibration.kept ? "as found before"
-                                   : concat("found in ", formatted("%.1f", calibration.seconds), " s"));
+                  " ns per vertex and simulated second, ", foundText(calibration));
 }
 
 std::string asText(const Calibration& calibration) {
+    if (calibration.contact)
+        return concat(oneLine(calibration), ": ", printable(calibration.why),
+                      "; paths part where molecules touch, so no error of them is claimed\n");
     return concat(oneLine(calibration), ": ", printable(calibration.why), "\n",
                   tableText(candidateColumns, measure::asJson(calibration).find("candidates")->items));
 }
