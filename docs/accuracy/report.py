@@ -299,7 +299,8 @@ def draw_contact(picture):
 def draw(scenes):
     import plot
     draw_contact(here.parent / "accuracy-contact.png")
-    draw_claims(here.parent / "accuracy-claims.png")
+    if data.claims_in():
+        draw_claims(here.parent / "accuracy-claims.png")
     for molecule in grid.molecules:
         plot.draw([as_report(scenes[grid.id_of((molecule, motion, power))])
                    for motion, power in itertools.product(grid.motions, grid.powers)], here.parent / f"accuracy-{molecule}.png")

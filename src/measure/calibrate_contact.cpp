@@ -7,8 +7,9 @@ namespace shoal::measure {
 Calibration calibrateContact(const Scene& scene, const CalibrationOptions& options,
                              const AccuracyDevice& device) {
     if (!options.solvers.empty() || !options.samplings.empty())
-        throw Error("--error chooses the substeps and iterations of contact where molecules touch, and no "
-                    "solver: remove --solver and --field-sampling");
+        throw Error(
+            "--error chooses the substeps and iterations of contact where molecules touch, and no "
+            "solver: remove --solver and --field-sampling");
     const Location place{scene.file, 0, 0, {}};
     ContactCurveOptions wanted{.duration = options.duration, .rounds = 2, .seconds = options.seconds};
     if (options.substeps) wanted.substeps = {*options.substeps};
@@ -49,7 +50,8 @@ Calibration calibrateContact(const Scene& scene, const CalibrationOptions& optio
     out.error = best->errors.overlap;
     out.duration = curve.duration;
     out.contact = *best;
-    out.why = concat("the cheapest of ", within, " of ", tried, " pairs of substeps and iterations that get there");
+    out.why =
+        concat("the cheapest of ", within, " of ", tried, " pairs of substeps and iterations that get there");
     return out;
 }
 
