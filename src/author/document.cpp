@@ -40,7 +40,7 @@ std::optional<Draft> readKept(const std::string& text, const std::string& file, 
         const bool same = base->text == contentKey(fileText);
         for (const auto& [key, list] :
              {std::pair("vertices", &out.origins.vertices), std::pair("springs", &out.origins.springs),
-              std::pair("triangles", &out.origins.triangles)}) {
+              std::pair("bends", &out.origins.bends), std::pair("triangles", &out.origins.triangles)}) {
             std::vector<int> origins;
             reader.get(key, origins);
             if (same && origins.size() == list->size())
@@ -133,7 +133,8 @@ void Document::restart(Molecule molecule) {
     for (std::vector<Step>* steps : {&past_, &future_})
         for (Step& step : *steps) {
             Draft::Origins& origins = step.draft.origins;
-            for (std::vector<int>* list : {&origins.vertices, &origins.springs, &origins.triangles})
+            for (std::vector<int>* list :
+                 {&origins.vertices, &origins.springs, &origins.bends, &origins.triangles})
                 std::fill(list->begin(), list->end(), -1);
         }
     lastGesture_ = 0;
@@ -163,6 +164,7 @@ void Document::save() {
         for (Step& step : *steps)
             if (step.draft.molecule.vertices.size() == before.molecule.vertices.size() &&
                 step.draft.molecule.springs.size() == before.molecule.springs.size() &&
+                step.draft.molecule.bends.size() == before.molecule.bends.size() &&
                 step.draft.molecule.triangles.size() == before.molecule.triangles.size())
                 step.draft.origins = now_.origins;
     written_ = timeOf(file_);
@@ -217,6 +219,7 @@ std::string Document::kept() const {
         .add("base", JsonValue::makeString(contentKey(text_)))
         .add("vertices", listOf(draft.origins.vertices))
         .add("springs", listOf(draft.origins.springs))
+        .add("bends", listOf(draft.origins.bends))
         .add("triangles", listOf(draft.origins.triangles))
         .add("molecule", toJson(draft.molecule, true));
     return writeJson(root);

@@ -120,7 +120,7 @@ VectorXd row(const Molecule& m, int a, int b) {
 // Motions that nothing resists, orthonormal; none is rigid.
 MatrixXd softMotions(const Molecule& m) {
     const Freedom all(m, false);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &Spring::stiffness));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &WeightedSpring::stiffness));
     const VectorXd& values = solver.eigenvalues();
     Eigen::Index count = 0;
     while (count < values.size() && values(count) <= soft * values(values.size() - 1))
@@ -183,7 +183,7 @@ struct Softest {
 
 Softest softest(const Molecule& m) {
     const Freedom all(m, false);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &Spring::stiffness));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &WeightedSpring::stiffness));
     const VectorXd& values = solver.eigenvalues();
     const double most = values(values.size() - 1);
     for (Eigen::Index i = 0; i < values.size(); ++i)

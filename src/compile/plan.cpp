@@ -66,6 +66,9 @@ int placesOf(const Group& group) {
 // Plans a group: its needs and numbers.
 GroupPlan planGroup(const Scene& scene, size_t index, const CompileOptions& options, const Plan& plan) {
     const Group& group = scene.groups[index];
+    if (!group.molecule.bends.empty())
+        throw Error(group.molecule.places.bends.empty() ? group.location : group.molecule.places.bends[0],
+                    "bends are not simulated yet: fold the sheet instead (docs/molecule-format.md)");
     GroupPlan out;
     out.name = uniqueName(group, index, plan);
     out.location = group.location;

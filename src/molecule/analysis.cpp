@@ -1,6 +1,8 @@
 // Eigenvalues of the mass-scaled stiffness A = M^-1/2 K M^-1/2 of the vertices that move, and of damping B
 // likewise. Up to 300 vertices densely, beyond by power iteration.
 //
+// A bend is one of them, between weighted means (WeightedSpring).
+//
 // Why a bound: n n^T <= I for any direction n, and the transverse stiffness k (1 - L/l) of a stretched spring
 // is below k, so K of any deformed shape is at most the weighted graph Laplacian times I. The Laplacian's
 // largest eigenvalue therefore bounds the square of every frequency.
@@ -26,18 +28,23 @@ using Eigen::VectorXd;
 
 // The largest eigenvalue of the same matrix without building it (power iteration, from above by 2 %, since it
 // converges from below), or of the Laplacian that bounds it.
-double largestByIteration(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient,
-                          bool laplacian) {
+double largestByIteration(const Molecule& molecule, const Freedom& freedom,
+                          double WeightedSpring::*coefficient, bool laplacian) {
     struct Link {
-        int a, b;  // -1: held
-        double ra, rb, coefficient;
-        Eigen::Vector3d n;
+        WeightedSpring spring;  // its vertices: their rows, -1: held; its weights: scaled by the masses
+        Eigen::Matrix3d block;
     };
     std::vector<Link> links;
-    for (const Spring& spring : molecule.springs)
-        links.push_back({freedom.index[size_t(spring.a)], freedom.index[size_t(spring.b)],
-                         inverseRootMass(molecule, spring.a), inverseRootMass(molecule, spring.b),
-                         spring.*coefficient, direction(molecule, spring.a, spring.b)});
+    for (WeightedSpring spring : weightedSprings(molecule)) {
+        Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
+        if (!laplacian) block = resisted(molecule, spring);
+        block *= spring.*coefficient;
+        for (size_t i = 0; i < size_t(spring.count); ++i) {
+            spring.weights[i] *= inverseRootMass(molecule, spring.vertices[i]);
+            spring.vertices[i] = freedom.index[size_t(spring.vertices[i])];
+        }
+        links.push_back({spring, block});
+    }
     Eigen::Matrix3Xd x(3, freedom.count);
     for (int i = 0; i < freedom.count; ++i)
         for (int axis = 0; axis < 3; ++axis)
@@ -46,14 +53,13 @@ double largestByIteration(const Molecule& molecule, const Freedom& freedom, doub
     for (int round = 0; round < 300; ++round) {
         x.normalize();
         Eigen::Matrix3Xd y = Eigen::Matrix3Xd::Zero(3, freedom.count);
-        for (const auto& [a, b, ra, rb, factor, n] : links) {
+        for (const auto& [spring, block] : links) {
             Eigen::Vector3d d = Eigen::Vector3d::Zero();
-            if (a >= 0) d += ra * x.col(a);
-            if (b >= 0) d -= rb * x.col(b);
-            if (!laplacian) d = n.dot(d) * n;
-            d *= factor;
-            if (a >= 0) y.col(a) += ra * d;
-            if (b >= 0) y.col(b) -= rb * d;
+            for (size_t i = 0; i < size_t(spring.count); ++i)
+                if (spring.vertices[i] >= 0) d += spring.weights[i] * x.col(spring.vertices[i]);
+            d = block * d;
+            for (size_t i = 0; i < size_t(spring.count); ++i)
+                if (spring.vertices[i] >= 0) y.col(spring.vertices[i]) += spring.weights[i] * d;
         }
         const double before = largest;
         largest = y.norm();
@@ -65,15 +71,16 @@ double largestByIteration(const Molecule& molecule, const Freedom& freedom, doub
 
 MatrixXd scaledLaplacian(const Molecule& molecule, const Freedom& freedom) {
     MatrixXd out = MatrixXd::Zero(freedom.count, freedom.count);
-    for (const Spring& spring : molecule.springs) {
-        const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
-        const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
-        if (a >= 0) out(a, a) += spring.stiffness * ra * ra;
-        if (b >= 0) out(b, b) += spring.stiffness * rb * rb;
-        if (a < 0 || b < 0) continue;
-        out(a, b) -= spring.stiffness * ra * rb;
-        out(b, a) -= spring.stiffness * ra * rb;
-    }
+    for (const WeightedSpring& spring : weightedSprings(molecule))
+        for (size_t i = 0; i < size_t(spring.count); ++i)
+            for (size_t j = 0; j < size_t(spring.count); ++j) {
+                const int row = freedom.index[size_t(spring.vertices[i])],
+                          column = freedom.index[size_t(spring.vertices[j])];
+                if (row < 0 || column < 0) continue;
+                out(row, column) += spring.stiffness * spring.weights[i] * spring.weights[j] *
+                                    inverseRootMass(molecule, spring.vertices[i]) *
+                                    inverseRootMass(molecule, spring.vertices[j]);
+            }
     return out;
 }
 
@@ -105,8 +112,8 @@ double fastestRate(double mostA, double mostB) {
 }
 
 void analyseDensely(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
-    const MatrixXd stiffness = assemble(molecule, freedom, &Spring::stiffness);
-    const MatrixXd damping = assemble(molecule, freedom, &Spring::damping);
+    const MatrixXd stiffness = assemble(molecule, freedom, &WeightedSpring::stiffness);
+    const MatrixXd damping = assemble(molecule, freedom, &WeightedSpring::damping);
     const VectorXd values = eigenvalues(stiffness);
     const double most = std::max(0.0, values(values.size() - 1));
     const double mostDamping = std::max(0.0, eigenvalues(damping)(values.size() - 1));
@@ -131,10 +138,10 @@ void analyseDensely(const Molecule& molecule, const Freedom& freedom, Analysis& 
 
 void analyseByIteration(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
     out.modesKnown = false;
-    const double most = largestByIteration(molecule, freedom, &Spring::stiffness, false);
-    const double mostDamping = largestByIteration(molecule, freedom, &Spring::damping, false);
+    const double most = largestByIteration(molecule, freedom, &WeightedSpring::stiffness, false);
+    const double mostDamping = largestByIteration(molecule, freedom, &WeightedSpring::damping, false);
     out.highestFrequency = std::sqrt(most);
-    out.frequencyBound = std::sqrt(largestByIteration(molecule, freedom, &Spring::stiffness, true));
+    out.frequencyBound = std::sqrt(largestByIteration(molecule, freedom, &WeightedSpring::stiffness, true));
     out.stableStepEuler = stableStep({}, {}, 2, most, mostDamping);
     out.stableStepLeapfrog = stableStep({}, {}, 4, most, mostDamping);
     out.fastestRate = fastestRate(most, mostDamping);
@@ -146,14 +153,16 @@ Analysis analyse(const Molecule& molecule, bool pinned) {
     Analysis out;
     out.vertices = static_cast<int>(molecule.vertices.size());
     out.springs = static_cast<int>(molecule.springs.size());
+    out.bends = static_cast<int>(molecule.bends.size());
     out.triangles = static_cast<int>(molecule.triangles.size());
     out.stableStepEuler = out.stableStepLeapfrog = std::numeric_limits<double>::infinity();
     for (const Vertex& vertex : molecule.vertices)
         out.totalMass += vertex.mass;
-    for (const Spring& spring : molecule.springs) {
-        const double stretch = glm::length(molecule.vertices[size_t(spring.a)].position -
-                                           molecule.vertices[size_t(spring.b)].position) -
-                               molecule.restLength(spring);
+    std::vector<glm::dvec3> places;
+    for (const Vertex& vertex : molecule.vertices)
+        places.push_back(vertex.position);
+    for (const WeightedSpring& spring : weightedSprings(molecule)) {
+        const double stretch = glm::length(spring.along(places)) - spring.restLength;
         out.restEnergy += 0.5 * spring.stiffness * stretch * stretch;
     }
     const Freedom freedom(molecule, pinned);
@@ -192,7 +201,8 @@ std::vector<Mode> modesOf(const Molecule& molecule, bool pinned, size_t most) {
     const Freedom freedom(molecule, pinned);
     if (molecule.vertices.size() > mostDense || freedom.count == 0 || molecule.vertices.size() < 2)
         return out;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(molecule, freedom, &Spring::stiffness));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+        assemble(molecule, freedom, &WeightedSpring::stiffness));
     const VectorXd& values = solver.eigenvalues();
     const double largest = std::max(0.0, values(values.size() - 1));
     Eigen::Index zeros = 0;

@@ -1,9 +1,9 @@
-// Analyses a molecule's springs: its frequencies, the motions that nothing resists, the stable steps, and its
-// motions one by one.
+// Analyses a molecule's springs and bends: its frequencies, the motions that nothing resists, the stable
+// steps, and its motions one by one.
 //
 // Linearised about the drawn shape: M x'' + C x' + K x = 0 with K = sum of k n n^T and C = sum of c n n^T
-// over the springs. Prestress (a restLength other than the drawn distance) is left out of K; check() warns of
-// it. Pinned vertices do not move.
+// over the springs, bends among them (WeightedSpring). Prestress (a restLength other than the drawn distance)
+// is left out of K; check() warns of it. Pinned vertices do not move.
 #pragma once
 
 #include <numbers>
@@ -22,7 +22,7 @@ struct Analysis {
     double frequencyBound = 0;    // rad/s, which no deformed shape exceeds (see analysis.cpp)
     double lowestFrequency = 0;   // rad/s, the lowest above 0; 0 when there is none or modes are not known
     int rigidModes = 0;           // rigid motions that the pins leave: 6 free, 3 for a point, 1 on a hinge, 0
-    int zeroModes = 0;            // further motions that no spring resists to first order
+    int zeroModes = 0;            // further motions that no spring or bend resists to first order
     bool modesKnown = true;       // false above 300 vertices, where only the highest frequency is found
 
     // s; infinite without springs. Sufficient for every mode, with the actual damping (analysis.cpp).
@@ -33,7 +33,7 @@ struct Analysis {
 
     double totalMass = 0;   // kg, pinned vertices too
     double restEnergy = 0;  // J, in the springs of the drawn shape
-    int vertices = 0, springs = 0, triangles = 0;
+    int vertices = 0, springs = 0, bends = 0, triangles = 0;
 };
 
 // `pinned`: pins hold; otherwise as after their release. The molecule must be valid (see molecule_file.h).

@@ -260,8 +260,8 @@ class Checker {
         const size_t count = size_t(free.zeroModes);
         find(Kind::soft, {m_.file},
              concat("the springs leave ", many(int64_t(count), "motion", "motions"),
-                    " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
-                    "what is flat (by about 0.12 of its size)"));
+                    " without any stiffness beyond moving as a whole: brace it with springs across, give "
+                    "its edges bends, or fold what is flat (by about 0.12 of its size)"));
     }
 
     using Kind = Finding::Kind;

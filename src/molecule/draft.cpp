@@ -50,7 +50,7 @@ std::set<int> touching(const std::vector<Element>& elements, const std::set<int>
 }  // namespace
 
 Draft::Draft(Molecule read) : molecule(std::move(read)) {
-    origins = {upTo(molecule.vertices.size()), upTo(molecule.springs.size()),
+    origins = {upTo(molecule.vertices.size()), upTo(molecule.springs.size()), upTo(molecule.bends.size()),
                upTo(molecule.triangles.size())};
 }
 
@@ -100,6 +100,11 @@ void removeSprings(Draft& draft, const std::set<int>& springs) {
     removeFrom(draft.origins.springs, springs);
 }
 
+void removeBends(Draft& draft, const std::set<int>& bends) {
+    removeFrom(draft.molecule.bends, bends);
+    removeFrom(draft.origins.bends, bends);
+}
+
 void removeTriangles(Draft& draft, const std::set<int>& triangles) {
     removeFrom(draft.molecule.triangles, triangles);
     removeFrom(draft.origins.triangles, triangles);
@@ -110,6 +115,9 @@ void removeVertices(Draft& draft, const std::set<int>& vertices) {
     removeSprings(draft, touching(m.springs, vertices, [](const Spring& s) {
                       return std::vector<int>{s.a, s.b};
                   }));
+    removeBends(draft, touching(m.bends, vertices, [](const Bend& b) {
+                    return std::vector<int>{b.a, b.b, b.c, b.d};
+                }));
     removeTriangles(draft, touching(m.triangles, vertices, [](const Triangle& t) {
                         return std::vector<int>{t.a, t.b, t.c};
                     }));
@@ -122,6 +130,8 @@ void removeVertices(Draft& draft, const std::set<int>& vertices) {
     const auto follow = [&moved](int& index) { index = moved[size_t(index)]; };
     for (Spring& spring : m.springs)
         follow(spring.a), follow(spring.b);
+    for (Bend& bend : m.bends)
+        follow(bend.a), follow(bend.b), follow(bend.c), follow(bend.d);
     for (Triangle& t : m.triangles)
         follow(t.a), follow(t.b), follow(t.c);
     if (!m.skin.empty()) rebindSkin(m);
@@ -157,11 +167,12 @@ std::string problemOf(const Molecule& molecule) {
 
 namespace {
 
-constexpr const char* arrays[] = {"vertices", "springs", "triangles"};
+constexpr const char* arrays[] = {"vertices", "springs", "bends", "triangles"};
 
 const std::vector<int>& originsOf(const Draft& draft, std::string_view key) {
     return key == "vertices"  ? draft.origins.vertices
            : key == "springs" ? draft.origins.springs
+           : key == "bends"   ? draft.origins.bends
                               : draft.origins.triangles;
 }
 

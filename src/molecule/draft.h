@@ -14,7 +14,7 @@ struct Draft {
     Molecule molecule;
     // Holds, for each element, its index in the file, ascending; -1: new.
     struct Origins {
-        std::vector<int> vertices, springs, triangles;
+        std::vector<int> vertices, springs, bends, triangles;
         bool operator==(const Origins&) const = default;
     } origins;
 
@@ -30,6 +30,7 @@ int addSpring(Draft& draft, int a, int b);
 int addTriangle(Draft& draft, int a, int b, int c);
 void removeVertices(Draft& draft, const std::set<int>& vertices);  // with all that depends on them
 void removeSprings(Draft& draft, const std::set<int>& springs);
+void removeBends(Draft& draft, const std::set<int>& bends);
 void removeTriangles(Draft& draft, const std::set<int>& triangles);
 
 int springBetween(const Molecule& molecule, int a, int b);  // -1: none

@@ -14,28 +14,35 @@ Freedom::Freedom(const Molecule& molecule, bool pinned) {
 }
 
 Eigen::Vector3d direction(const Molecule& molecule, int a, int b) {
-    const glm::dvec3 d = molecule.vertices[size_t(a)].position - molecule.vertices[size_t(b)].position;
-    const double length = glm::length(d);
-    return length > 0 ? toEigen(d / length) : Eigen::Vector3d::Zero();
+    return toEigen(unit(molecule.vertices[size_t(a)].position - molecule.vertices[size_t(b)].position));
+}
+
+Eigen::Matrix3d resisted(const Molecule& molecule, const WeightedSpring& spring) {
+    if (spring.restLength == 0) return Eigen::Matrix3d::Identity();
+    glm::dvec3 d(0);
+    for (size_t i = 0; i < size_t(spring.count); ++i)
+        d += spring.weights[i] * molecule.vertices[size_t(spring.vertices[i])].position;
+    const Eigen::Vector3d n = toEigen(unit(d));
+    return n * n.transpose();
 }
 
 double inverseRootMass(const Molecule& molecule, int vertex) {
     return 1 / std::sqrt(molecule.vertices[size_t(vertex)].mass);
 }
 
-MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient) {
+MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double WeightedSpring::*coefficient) {
     MatrixXd out = MatrixXd::Zero(3 * freedom.count, 3 * freedom.count);
-    for (const Spring& spring : molecule.springs) {
-        const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
-        const Eigen::Vector3d n = direction(molecule, spring.a, spring.b);
-        const Eigen::Matrix3d block = spring.*coefficient * n * n.transpose();
-        const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
-        if (a >= 0) out.block<3, 3>(3 * a, 3 * a) += ra * ra * block;
-        if (b >= 0) out.block<3, 3>(3 * b, 3 * b) += rb * rb * block;
-        if (a >= 0 && b >= 0) {
-            out.block<3, 3>(3 * a, 3 * b) -= ra * rb * block;
-            out.block<3, 3>(3 * b, 3 * a) -= ra * rb * block;
-        }
+    for (const WeightedSpring& spring : weightedSprings(molecule)) {
+        const Eigen::Matrix3d block = spring.*coefficient * resisted(molecule, spring);
+        for (size_t i = 0; i < size_t(spring.count); ++i)
+            for (size_t j = 0; j < size_t(spring.count); ++j) {
+                const int row = freedom.index[size_t(spring.vertices[i])],
+                          column = freedom.index[size_t(spring.vertices[j])];
+                const double share = spring.weights[i] * spring.weights[j] *
+                                     inverseRootMass(molecule, spring.vertices[i]) *
+                                     inverseRootMass(molecule, spring.vertices[j]);
+                if (row >= 0 && column >= 0) out.block<3, 3>(3 * row, 3 * column) += share * block;
+            }
     }
     return out;
 }

@@ -32,10 +32,15 @@ inline glm::dvec3 unit(const glm::dvec3& v) {
 
 // Unit, from b to a; zero for coincident vertices, where a spring has no direction.
 Eigen::Vector3d direction(const Molecule& molecule, int a, int b);
+// n n^T, n the unit direction of a spring; zero where its ends coincide. The identity for a bend that is flat
+// at rest, which resists all directions alike.
+Eigen::Matrix3d resisted(const Molecule& molecule, const WeightedSpring& spring);
 double inverseRootMass(const Molecule& molecule, int vertex);
 
-// Sum of coefficient * n n^T over the springs, scaled by the masses. `coefficient`: stiffness or damping.
-Eigen::MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient);
+// Sum of coefficient * n n^T over the springs and bends, scaled by the masses. `coefficient`: stiffness or
+// damping.
+Eigen::MatrixXd assemble(const Molecule& molecule, const Freedom& freedom,
+                         double WeightedSpring::*coefficient);
 
 // Orthonormal columns that span the same, but for what is shorter than `least`.
 Eigen::MatrixXd basisOf(const Eigen::MatrixXd& columns, double least);

@@ -2,6 +2,7 @@
 // SI units throughout: metres, kilograms, seconds, newtons. Right-handed, +Y up.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,17 @@ struct Spring {
     double damping = 0;                // N s/m
     std::optional<double> restLength;  // m; the distance in the rest shape when absent
     std::optional<Actuation> actuation;
+};
+
+// The bend of a surface across the edge that the triangles (a, b, c) and (b, a, d) share, a hinge that
+// resists the angle t between them [Bergou 2006]. With u and v the unit vectors from the edge to c and to d,
+// both perpendicular to it, |u + v| = 2 sin(t/2). In the rest shape u + v is a sum of weight_i x_i, whose
+// weights add up to 0 and stay as they are. The energy is stiffness (|u + v| - its rest value)^2 / 2: without
+// force in the rest shape, linear in x where that is flat, and stiffness t^2 / 2 for small angles there.
+struct Bend {
+    int a = 0, b = 0, c = 0, d = 0;
+    double stiffness = 0;  // N m
+    double damping = 0;    // N m s
 };
 
 struct Triangle {
@@ -105,6 +117,7 @@ struct Molecule {
     std::string comment;
     std::vector<Vertex> vertices;
     std::vector<Spring> springs;
+    std::vector<Bend> bends;
     std::vector<Triangle> triangles;
     Skin skin;  // empty: the triangles themselves are drawn
     Material material;
@@ -112,7 +125,7 @@ struct Molecule {
 
     // Where each element stands in the file, for messages; empty when made in code.
     struct Places {
-        std::vector<Location> vertices, springs, triangles;
+        std::vector<Location> vertices, springs, bends, triangles;
     } places;
 
     double restLength(const Spring& spring) const {
@@ -126,9 +139,38 @@ struct Molecule {
     bool hasPins() const;
 };
 
+// A spring between weighted means of vertices, of which Spring and Bend are kinds: with d the sum of weight_i
+// x_i, the force on vertex i is weight_i times that of a Spring whose ends are d apart. Squares of the
+// weights add up to 2, as those of a Spring, 1 and -1. As weights add up to 0, momentum is kept; as the force
+// is along d, angular momentum is.
+struct WeightedSpring {
+    std::array<int, 4> vertices{};
+    std::array<double, 4> weights{};  // of a bend's a, b, c and d
+    int count = 0;                    // of its vertices
+    double stiffness = 0;             // N/m
+    double damping = 0;               // N s/m
+    double restLength = 0;            // m; 0: a bend that is flat in the rest shape
+
+    // The sum of weight_i values_i, of differences to the first, so that values far from 0 cancel without
+    // loss.
+    glm::dvec3 along(const std::vector<glm::dvec3>& values) const {
+        const glm::dvec3& first = values[size_t(vertices[0])];
+        glm::dvec3 out(0);
+        for (size_t i = 1; i < size_t(count); ++i)
+            out += weights[i] * (values[size_t(vertices[i])] - first);
+        return out;
+    }
+};
+
+WeightedSpring weighted(const Molecule& molecule, const Spring& spring);  // without its muscle
+WeightedSpring weighted(const Molecule& molecule, const Bend& bend);
+// Returns all springs, then all bends.
+std::vector<WeightedSpring> weightedSprings(const Molecule& molecule);
+
 const Description& describe(const Vertex*);
 const Description& describe(const Actuation*);
 const Description& describe(const Spring*);
+const Description& describe(const Bend*);
 const Description& describe(const Material*);
 const Description& describe(const Molecule*);
 

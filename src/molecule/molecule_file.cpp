@@ -17,11 +17,9 @@ namespace shoal {
 namespace {
 
 constexpr size_t mostBytes = size_t{1} << 28;
-constexpr double leastLength = 1e-9;  // m, below which two vertices stand in one place
 constexpr double anySize = std::numeric_limits<double>::infinity();  // these limits are a molecule's own
 const Range share = Range::between(0, 1), coordinateLimits = Range::between(-maxCoordinate, maxCoordinate);
-const Range massLimits = Range::between(1e-12, 1e12);     // kg
-const Range coefficientLimits = Range::between(0, 1e15);  // N/m, and N s/m
+const Range massLimits = Range::between(1e-12, 1e12);  // kg
 
 // ---- Values of elements that do not give their own
 
@@ -137,6 +135,7 @@ void checkParts(const Molecule& molecule, const Where& where) {
         throw Error(where.locate("vertices"), "expected at least one vertex, found none");
     needAtMost(where, "vertices", molecule.vertices.size(), maxMoleculeVertices);
     needAtMost(where, "springs", molecule.springs.size(), maxMoleculeSprings);
+    needAtMost(where, "bends", molecule.bends.size(), maxMoleculeSprings);
     needAtMost(where, "triangles", molecule.triangles.size(), maxMoleculeTriangles);
     std::set<std::pair<int, int>> seen;
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
@@ -145,6 +144,7 @@ void checkParts(const Molecule& molecule, const Where& where) {
         checkDirection(molecule.springs[i], molecule, here);
         checkNew(molecule.springs[i], seen, here);
     }
+    checkBends(molecule, where);
     for (size_t i = 0; i < molecule.triangles.size(); ++i) {
         const Triangle& t = molecule.triangles[i];
         for (const int corner : {t.a, t.b, t.c})
@@ -162,6 +162,8 @@ void findPlaces(Molecule& molecule, const Where& where) {
         molecule.places.vertices.push_back(where.in("vertices", i).here());
     for (size_t i = 0; i < molecule.springs.size(); ++i)
         molecule.places.springs.push_back(where.in("springs", i).here());
+    for (size_t i = 0; i < molecule.bends.size(); ++i)
+        molecule.places.bends.push_back(where.in("bends", i).here());
 }
 
 }  // namespace
@@ -314,6 +316,7 @@ const Description& describe(const Molecule*) {
             .key("vertices", &M::vertices, {"", "Its vertices, 1 to 65,536."})
             .needed()
             .key("springs", &M::springs, {"", "Its springs, at most 1,048,576."})
+            .key("bends", &M::bends, {"", "Its bends, at most 1,048,576."})
             .byHand<Defaults>("triangles", triples,
                               {"list of [a, b, c]",
                                "Three different vertices each, anticlockwise seen from the front, at most "
@@ -325,7 +328,8 @@ const Description& describe(const Molecule*) {
             .key("material", &M::material, {"", "How it looks."})
             .derive(findPlaces)
             .rule(checkParts, R"({"properties": {"vertices": {"minItems": 1, "maxItems": 65536},
-                                                 "springs": {"maxItems": 1048576}}})");
+                                                 "springs": {"maxItems": 1048576},
+                                                 "bends": {"maxItems": 1048576}}})");
     return description;
 }
 

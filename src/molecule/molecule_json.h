@@ -12,12 +12,16 @@
 namespace shoal {
 
 // Sizes that single precision on the GPU can square and add without overflow.
-constexpr double maxCoordinate = 1e6;  // m
-constexpr double mostFrequency = 1e6;  // Hz
+constexpr double maxCoordinate = 1e6;                     // m
+constexpr double mostFrequency = 1e6;                     // Hz
+constexpr double leastLength = 1e-9;                      // m, below which two vertices stand in one place
+const Range coefficientLimits = Range::between(0, 1e15);  // stiffness and damping
 
 // Errors, each at what is wrong.
 void checkIndex(int index, const Molecule& molecule, const Where& where);
 void checkCorners(const Triangle& triangle, const Where& where);  // three different ones
+
+void checkBends(const Molecule& molecule, const Where& where);
 
 // All of it, with its skin.
 void checkMolecule(const Molecule& molecule, const Where& where);

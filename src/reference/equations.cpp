@@ -21,20 +21,16 @@ Equations::Equations(const Problem& problem) : problem_(&problem) {
     inverseMass_.reserve(molecule.vertices.size());
     for (size_t i = 0; i < molecule.vertices.size(); ++i)
         inverseMass_.push_back(problem.pinned(i) ? 0 : 1 / molecule.vertices[i].mass);
-    links_.reserve(molecule.springs.size());
-    for (const Spring& spring : molecule.springs)
-        addLink(spring);
-}
-
-void Equations::addLink(const Spring& spring) {
-    const Problem& p = *problem_;
-    const double length = p.scale * p.molecule->restLength(spring);
-    if (const auto& muscle = spring.actuation) {
-        muscles_.push_back({links_.size(), length, muscle->amplitude,
-                            2 * std::numbers::pi * muscle->frequency, muscle->phase + p.phase});
+    links_ = weightedSprings(molecule);
+    for (WeightedSpring& link : links_) {
+        link.stiffness *= problem.stiffness;
+        link.damping *= problem.damping;
+        link.restLength *= problem.scale;
     }
-    links_.push_back({uint32_t(spring.a), uint32_t(spring.b), p.stiffness * spring.stiffness,
-                      p.damping * spring.damping, length});
+    for (size_t s = 0; s < molecule.springs.size(); ++s)
+        if (const auto& muscle = molecule.springs[s].actuation)
+            muscles_.push_back({s, links_[s].restLength, muscle->amplitude,
+                                2 * std::numbers::pi * muscle->frequency, muscle->phase + problem.phase});
 }
 
 void Equations::flex(double time) {
@@ -47,16 +43,16 @@ void Equations::flex(double time) {
 void Equations::springs(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
     flex(time);
     out.assign(position.size(), glm::dvec3(0));
-    for (const Link& link : links_) {
-        const glm::dvec3 d = position[link.a] - position[link.b];
+    for (const WeightedSpring& link : links_) {
+        const glm::dvec3 d = link.along(position);
         const double square = glm::dot(d, d);
         if (square < coincident * coincident) continue;
         const double length = std::sqrt(square), inverse = 1 / length;
-        const double approach = glm::dot(d, velocity[link.a] - velocity[link.b]) * inverse;
+        const double approach = glm::dot(d, link.along(velocity)) * inverse;
         const double pull = link.stiffness * (length - link.restLength) + link.damping * approach;
         const glm::dvec3 force = pull * inverse * d;
-        out[link.a] -= force;
-        out[link.b] += force;
+        for (size_t i = 0; i < size_t(link.count); ++i)
+            out[size_t(link.vertices[i])] -= link.weights[i] * force;
     }
     for (size_t i = 0; i < out.size(); ++i)
         out[i] *= inverseMass_[i];

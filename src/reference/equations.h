@@ -25,11 +25,6 @@ class Equations {
     void everything(const Vectors& position, const Vectors& velocity, double time, Vectors& out);
 
   private:
-    // A spring with the problem's factors: N/m, N s/m, m.
-    struct Link {
-        uint32_t a, b;
-        double stiffness, damping, restLength;
-    };
     struct Muscle {
         size_t link;
         double restLength;        // m, relaxed
@@ -38,14 +33,13 @@ class Equations {
         double phase;             // rad, the problem's included
     };
 
-    void addLink(const Spring& spring);
     void flex(double time);
     void addForces(const Vectors& position, const Vectors& velocity, double time, Vectors& out);
     void addDrag(const Vectors& position, const Vectors& velocity, double time, Vectors& out);
 
     const Problem* problem_;
-    std::vector<double> inverseMass_;  // 1/kg, 0 where pinned
-    std::vector<Link> links_;
+    std::vector<double> inverseMass_;    // 1/kg, 0 where pinned
+    std::vector<WeightedSpring> links_;  // with the problem's factors
     std::vector<Muscle> muscles_;
     Vectors normals_;
 };

@@ -39,6 +39,11 @@ double springEnergy(const Problem& problem, const State& state) {
             restLength(problem, spring, state.time);
         sum += 0.5 * problem.stiffness * spring.stiffness * stretch * stretch;
     }
+    for (const Bend& bend : problem.molecule->bends) {
+        const WeightedSpring spring = weighted(*problem.molecule, bend);
+        const double stretch = glm::length(spring.along(state.position)) - problem.scale * spring.restLength;
+        sum += 0.5 * problem.stiffness * spring.stiffness * stretch * stretch;
+    }
     return sum;
 }
 

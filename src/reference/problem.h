@@ -3,9 +3,10 @@
 //   m dv/dt = sum of spring forces + m g + m a(x, t) + m thrust(V) + m drag(u(x, t) - v),   dx/dt = v
 //
 // A spring's force on its end a is -[k (l - L(t)) + c n.(va - vb)] n, n = (xa - xb) / l; none where l
-// vanishes. Drag is gamma (u - v), or with two rates gamma_n across and gamma_t along the surface at the
-// vertex. The scene's forces are a, thrust, which pushes along the mean velocity V, and wind, a part of u. A
-// pinned vertex has infinite mass: it neither moves nor accelerates, and its velocity counts as 0.
+// vanishes. Bends are springs between weighted means (WeightedSpring). Drag is gamma (u - v), or with two
+// rates gamma_n across and gamma_t along the surface at the vertex. The scene's forces are a, thrust, which
+// pushes along the mean velocity V, and wind, a part of u. A pinned vertex has infinite mass: it neither
+// moves nor accelerates, and its velocity counts as 0.
 #pragma once
 
 #include <vector>
@@ -20,7 +21,7 @@ namespace shoal::reference {
 struct Problem {
     const Molecule* molecule = nullptr;  // borrowed
     double scale = 1;                    // of the rest lengths
-    double stiffness = 1, damping = 1;   // factors on every spring
+    double stiffness = 1, damping = 1;   // factors on every spring and bend
     double phase = 0;                    // rad, added to every actuation
     bool held = true;                    // pinned vertices hold
     glm::dvec3 gravity{0};               // m/s^2
@@ -48,7 +49,8 @@ using Vectors = std::vector<glm::dvec3>;
 // m, with the muscle's share at that time.
 double restLength(const Problem& problem, const Spring& spring, double time);
 double kineticEnergy(const Problem& problem, const State& state);  // J
-double springEnergy(const Problem& problem, const State& state);   // J, with rest lengths of that moment
+double springEnergy(const Problem& problem,
+                    const State& state);  // J, of springs and bends, with rest lengths of that moment
 // Kinetic + spring + gravity (0 at the origin), in J.
 double energy(const Problem& problem, const State& state);
 glm::dvec3 momentum(const Problem& problem, const State& state);         // kg m/s

@@ -16,7 +16,7 @@ namespace {
 // of frequency w decays at w^2 c / 2k when all springs have that c / k; the least c / k bounds it.
 bool dampedAway(const Problem& problem, double rate, double duration) {
     double least = 1e30;  // s
-    for (const Spring& spring : problem.molecule->springs) {
+    for (const WeightedSpring& spring : weightedSprings(*problem.molecule)) {
         if (spring.stiffness * problem.stiffness <= 0) continue;
         least = std::min(least, problem.damping * spring.damping / (problem.stiffness * spring.stiffness));
     }
@@ -97,14 +97,21 @@ double fastestRate(const Problem& problem) {
     const Molecule& molecule = *problem.molecule;
     std::vector<double> stiffness(molecule.vertices.size()), damping(molecule.vertices.size());
     double driven = 0;
-    for (const Spring& spring : molecule.springs) {
-        for (int end : {spring.a, spring.b}) {
-            stiffness[size_t(end)] += problem.stiffness * spring.stiffness;
-            damping[size_t(end)] += problem.damping * spring.damping;
+    for (const WeightedSpring& spring : weightedSprings(molecule)) {
+        // Gershgorin: an eigenvalue of M^-1 K is at most the largest sum of a row's absolute values, here
+        // halved
+        double all = 0;
+        for (const double weight : spring.weights)
+            all += std::abs(weight);
+        for (size_t i = 0; i < size_t(spring.count); ++i) {
+            const size_t end = size_t(spring.vertices[i]);
+            const double share = std::abs(spring.weights[i]) * all / 2;
+            stiffness[end] += problem.stiffness * spring.stiffness * share;
+            damping[end] += problem.damping * spring.damping * share;
         }
-        if (spring.actuation) driven = std::max(driven, 6.3 * std::abs(spring.actuation->frequency));
     }
-    // Gershgorin: an eigenvalue of M^-1 K is at most twice the largest sum of k / m around a vertex
+    for (const Spring& spring : molecule.springs)
+        if (spring.actuation) driven = std::max(driven, 6.3 * std::abs(spring.actuation->frequency));
     for (const Field& field : problem.fields) {
         if (const auto* wind = std::get_if<OscillatingField>(&*field.shape))
             driven = std::max(driven, 6.3 * wind->frequency);

@@ -240,6 +240,7 @@ TEST_CASE("the tables of the formats say what the descriptions say", "[descripti
                                          {"defaults", &describeDefaults()},
                                          {"vertex", descriptionOf<Vertex>()},
                                          {"spring", descriptionOf<Spring>()},
+                                         {"bend", descriptionOf<Bend>()},
                                          {"actuation", descriptionOf<Actuation>()},
                                          {"material", descriptionOf<Material>()},
                                          {"skin", &describeSkin()}});
