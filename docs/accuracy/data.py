@@ -138,6 +138,14 @@ def contact_in(file=here / "contact.csv"):
     return scenes
 
 
+def read_space():
+    """The rows of space.csv: a shape, how its molecule was made, its vertices and relative errors."""
+    with open(here / "space.csv", newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            yield {key: value if key in ("shape", "made") else number(value) for key, value in row.items()} | {
+                "vertices": int(row["vertices"])}
+
+
 # ---- What an error costs
 
 class Cost:

@@ -4,6 +4,7 @@
 report.py                tables and pictures; pictures by Matplotlib
 report.py --check        ends with 1 where a table of a page is not what the data say; tells the commit that they are of, and
                          which sources have changed since
+report.py --space        tables, and the picture of the error in space alone: space.csv is the unit tests' (SHOAL_UPDATE_SPACE=1)
 report.py FOLDER…        takes what grid.py and contact.py have measured and claims.py has asked into these for the data, the
                          last where several have a scene, then does the same as without
 
@@ -11,6 +12,7 @@ A table stands in a page between the comments `report.py: NAME` and `report.py: 
 """
 import argparse
 import itertools
+import math
 import pathlib
 import re
 import subprocess
@@ -191,7 +193,41 @@ def machine(scenes):
             f"{' to '.join(dict.fromkeys((dates[0], dates[-1])))}.\n")
 
 
+# ---- The error in space
+
+space_figures = {"sag": "sag", "first": "1st frequency", "second": "2nd", "third": "3rd", "buckling": "buckling", "twist": "twist"}
+space_shapes = {"sheet": 2, "leaf": 2, "rod": 1, "fish": 1}  # vertices grow with this power of the rows along it
+
+
+def percent(error):
+    if error is None:
+        return ""
+    return f"{1 + error:.1f}×" if error > 1 else f"{100 * error:+.{1 if abs(error) < 0.0995 else 0}f} %"
+
+
+def order(rows, figure, shape):
+    """Of the error in the length of a cell, from the last but two to the last number of vertices."""
+    first, last = rows[-3], rows[-1]
+    if not first[figure] or not last[figure] or abs(first[figure]) < 0.005 or first[figure] * last[figure] < 0:
+        return ""
+    cells = math.log(last["vertices"] / first["vertices"]) / space_shapes[shape]
+    return f"{math.log(abs(first[figure] / last[figure])) / cells:.1f}"
+
+
+def space(_):
+    every = list(data.read_space())
+    rows = []
+    for made, shape in itertools.product(("before", "now"), space_shapes):
+        found = [row for row in every if (row["made"], row["shape"]) == (made, shape)]
+        rows += [[f"{shape}, {made}", str(row["vertices"])] + [percent(row[figure]) for figure in space_figures] for row in found]
+        if made == "now":
+            rows.append([f"{shape}, order", ""] + ["" if figure in ("sag", "first") else order(found, figure, shape)
+                                                  for figure in space_figures])
+    return table(["", "vertices", *space_figures.values()], rows)
+
+
 tables = {
+    "space": space,
     "machine": machine,
     "summary": summary,
     "best": lambda scenes: by_stiffness(scenes, best_cell),
@@ -296,11 +332,37 @@ def draw_contact(picture):
     figure.savefig(picture, dpi=110)
 
 
+def draw_space(picture):
+    """A panel a figure, a curve a shape: the error by the number of vertices, before and now."""
+    import plot
+    figures = dict(list(space_figures.items())[:5])
+    figure, all_axes = plot.plt.subplots(1, len(figures), figsize=(13, 3.6), sharey=True, layout="constrained")
+    colors = dict(zip(space_shapes, ("#0072B2", "#009E73", "#D55E00", "#E69F00")))
+    every = list(data.read_space())
+    for axes, (key, name) in zip(all_axes, figures.items()):
+        axes.axhspan(1e-4, 0.05, color="#F0F0F0")
+        for shape, (made, stroke) in itertools.product(space_shapes, (("before", ":"), ("now", "-"))):
+            found = [row for row in every if (row["made"], row["shape"]) == (made, shape)]
+            axes.plot([row["vertices"] for row in found], [max(abs(row[key]), 1e-3) for row in found], stroke,
+                      color=colors[shape], marker="o" if made == "now" else "", markersize=4, linewidth=1.6 if made == "now" else 1,
+                      label=f"{shape}, {made}")
+        axes.set(xscale="log", yscale="log", ylim=(8e-4, 100), title=name, xticks=(12, 24, 48, 96, 192),
+                 xticklabels=("12", "24", "48", "96", "192"))
+        axes.minorticks_off()
+        axes.grid(color="#D8D8D8", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+    all_axes[0].set_ylabel("error, as a share of the beam's")
+    figure.supxlabel("simulated vertices", fontsize=10)
+    figure.legend(*all_axes[0].get_legend_handles_labels(), frameon=False, fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
+    figure.savefig(picture, dpi=110, bbox_inches="tight")
+
+
 def draw(scenes):
     import plot
     draw_contact(here.parent / "accuracy-contact.png")
     if data.claims_in():
         draw_claims(here.parent / "accuracy-claims.png")
+    draw_space(here.parent / "accuracy-space.png")
     for molecule in grid.molecules:
         plot.draw([as_report(scenes[grid.id_of((molecule, motion, power))])
                    for motion, power in itertools.product(grid.motions, grid.powers)], here.parent / f"accuracy-{molecule}.png")
@@ -334,6 +396,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", type=pathlib.Path, nargs="*")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--space", action="store_true")
     given = parser.parse_args()
     if given.folders:
         data.take(given.folders)
@@ -342,7 +405,10 @@ def main():
         sys.exit(0 if check(scenes) else 1)
     for page in pages:
         page.write_text(with_tables(page.read_text(encoding="utf-8"), scenes), encoding="utf-8")
-    draw(scenes)
+    if given.space:
+        draw_space(here.parent / "accuracy-space.png")
+    else:
+        draw(scenes)
 
 
 if __name__ == "__main__":

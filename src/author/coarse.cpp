@@ -96,6 +96,16 @@ double furthestFrom(const Triangles& few, const Triangles& all, const std::vecto
     return out;
 }
 
+double areaOf(const Triangles& triangles, const std::vector<glm::dvec3>& positions) {
+    double out = 0;
+    for (size_t t = 0; t < triangles.size(); t += 3) {
+        const glm::dvec3& a = positions[triangles[t]];
+        out +=
+            0.5 * glm::length(glm::cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a));
+    }
+    return out;
+}
+
 // Triangles that share an edge with another pass it in opposite directions, as far as there is a way.
 void faceAlike(std::vector<glm::ivec3>& triangles) {
     std::map<std::pair<int, int>, std::vector<size_t>> edges;
@@ -233,10 +243,18 @@ CoarseMesh simplify(const Mesh& mesh, int vertices) {
             positions.emplace_back(p - 0.5 * (mesh.low + mesh.high));
         if (flatness(mesh.weldedPositions) > flat) few = collapse(all, positions, most);
         const size_t left = verticesOf(few);
-        constexpr double furthest = 0.25;  // of the size: a straight piece keeps its ends alone
-        if (left > most || left < 4 || 10 * left < 6 * most ||
-            furthestFrom(few, all, mesh.weldedPositions) > furthest * glm::distance(mesh.low, mesh.high))
-            few = gather(all, mesh.weldedPositions, most);
+        // A straight piece keeps its ends alone.
+        const double furthest = std::min(0.25 * glm::distance(mesh.low, mesh.high),
+                                         1.5 * std::sqrt(areaOf(all, mesh.weldedPositions) / double(most)));
+        const auto reach = [&](const Triangles& triangles) {
+            return furthestFrom(triangles, all, mesh.weldedPositions);
+        };
+        const bool unsound = left > most || left < 4 || 10 * left < 6 * most;
+        if (unsound || reach(few) > furthest) {
+            Triangles gathered = gather(all, mesh.weldedPositions, most);
+            if (unsound || (verticesOf(gathered) >= 4 && reach(gathered) < reach(few)))
+                few = std::move(gathered);
+        }
     }
     CoarseMesh out;
     std::vector<int> numbers(mesh.weldedPositions.size(), -1);

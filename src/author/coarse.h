@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -30,6 +31,12 @@ CoarseMesh simplify(const Mesh& mesh, int vertices);
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its
 // positive end to its negative one, closed at the ends. Error: the mesh is flat along an axis.
 CoarseMesh ringsOf(const Mesh& mesh, int rings);
+// Whether all sections across that axis are of one part.
+bool holdsRings(const Mesh& mesh);
+
+// At most so many vertices in rows across a flat sheet. Nothing where a row would have gaps: the sheet has
+// holes or lobes, or lies on itself.
+std::optional<CoarseMesh> rowsOf(const Mesh& mesh, int vertices);
 
 // The volume of a closed mesh as samples of a grid: is a point inside, how much is near what.
 class Inside {

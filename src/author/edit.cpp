@@ -102,7 +102,7 @@ void flipTriangles(Draft& draft, const std::set<int>& triangles) {
 }
 
 int braceSoftModes(Draft& draft) {
-    const Bracing bracing = brace(draft.molecule, nullptr);
+    const Bracing bracing = brace(draft.molecule, nullptr, true);
     for (const auto& [a, b] : bracing.added)
         addSpring(draft, a, b);
     return int(bracing.added.size());

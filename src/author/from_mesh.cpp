@@ -78,6 +78,7 @@ class Maker {
         Mesh closed;
         if (report.borders > 0 && report.borders == report.unsound()) closed = withoutHoles(report);
         const Mesh& body = closed.triangles.empty() ? shape_ : closed;
+        body_ = body;
         made_.solid = report.closed();
         made_.volume = made_.solid ? std::abs(report.volume) : 0;
         made_.extent = mesh_.high - mesh_.low;
@@ -104,7 +105,12 @@ class Maker {
                                          " m long: --size gives another"));
         const char* usual = made_.solid || bulky() ? "flesh" : "leaf";
         made_.material = !options_.material.empty() ? options_.material : usual;
-        material_ = &scaledMaterial(made_.material);
+        material_ = scaledMaterial(made_.material);
+        material_.modulus = options_.modulus.value_or(material_.modulus);
+        material_.density = options_.density.value_or(material_.density);
+        material_.thickness = options_.thickness.value_or(material_.thickness);
+        if (options_.thickness && made_.solid)
+            throw Error("a body is as thick as it is, and this mesh is one: leave out the thickness");
     }
 
     // With small holes closed, where that makes it a body, of which `report` tells then; else empty.
@@ -126,12 +132,24 @@ class Maker {
         return options_.vertices.value_or(cage ? cageVertices : usualMadeVertices);
     }
 
+    bool ofSurface() const {
+        return options_.springs == FromMesh::Springs::automatic ||
+               options_.springs == FromMesh::Springs::surface;
+    }
+    // A body that is long and thin, with vertices to spare for it.
+    bool slender() const {
+        constexpr double least = 4;   // times as long as wide
+        constexpr size_t fewest = 3;  // rings
+        glm::dvec3 sorted = made_.extent;
+        std::sort(&sorted.x, &sorted.x + 3);
+        return inside_ && ofSurface() && sorted.z > least * sorted.y &&
+               size_t(wantedVertices()) >= 4 * fewest;
+    }
+
     // A sheet of a few large triangles could hardly bend.
     void refine() {
-        const bool ofSurface = options_.springs == FromMesh::Springs::automatic ||
-                               options_.springs == FromMesh::Springs::surface;
         const size_t few = mesh_.weldedPositions.size(), wanted = size_t(wantedVertices());
-        if (made_.solid || options_.rings || !ofSurface || 2 * few > wanted) return;
+        if (made_.solid || options_.rings || !ofSurface() || 2 * few > wanted) return;
         constexpr size_t skinVertices = 4;  // for each that is simulated, so that the skin bends smoothly
         subdivide(mesh_, skinVertices * wanted, size_t(maxSkinTriangles));
         shape_ = withoutDoubledWalls(mesh_);
@@ -144,41 +162,52 @@ class Maker {
         const Activity activity("simplifying the mesh");
         using Springs = FromMesh::Springs;
         const int vertices = wantedVertices();
-        if (options_.rings) {
-            coarse_ = ringsOf(mesh_, *options_.rings);
+        const bool fewer = shape_.weldedPositions.size() > size_t(vertices);
+        rings_ = options_.rings.value_or(fewer && slender() && holdsRings(shape_) ? vertices / 4 : 0);
+        std::optional<CoarseMesh> rows;
+        constexpr double plane = 1e-3;
+        if (fewer && !inside_ && ofSurface() && flatness(shape_.weldedPositions) < plane)
+            rows = rowsOf(shape_, vertices);
+        regular_ = rings_ > 0 || rows;
+        if (rings_ > 0) {
+            coarse_ = ringsOf(mesh_, rings_);
         } else if (options_.springs == Springs::lattice || options_.springs == Springs::cage) {
             Lattice lattice = options_.springs == Springs::cage ? cageAround(shape_, inside_.get(), vertices)
                                                                 : latticeIn(shape_, *inside_, vertices);
             coarse_ = std::move(lattice.surface);
             cells_ = std::move(lattice.cells);
         } else {
-            coarse_ = simplify(shape_, vertices);
+            coarse_ = rows ? std::move(*rows) : simplify(shape_, vertices);
         }
         if (coarse_.positions.size() < 3) throw Error("the mesh has no shape that three vertices could hold");
         mapToCoarse(mesh_, coarse_);
         if (made_.solid || !cells_.empty()) return;
         // Without it every bend of a flat sheet would be free.
-        constexpr double leastFlatness = 0.05, height = 0.12;
+        constexpr double leastFlatness = 0.05, height = 0.8;
         if (coarse_.positions.size() < 4 || flatness(coarse_.positions) >= leastFlatness) return;
-        const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
-        fold(coarse_, height * size);
+        fold(coarse_, height * std::sqrt(made_.area / double(coarse_.positions.size())));
         made_.notes.push_back(concat("the sheet is flat: its vertices were folded up and down by ", height,
-                                     " of its size, so that it resists bending; the skin stays flat"));
+                                     " of their distance, so that it resists bending; the skin stays flat"));
     }
 
     void makeVertices() {
         const MassSpread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(shape_, coarse_);
-        const double density = options_.density.value_or(material_->density);
-        const double mass =
-            options_.mass.value_or(density * (inside_ ? made_.volume : made_.area * material_->thickness));
-        density_ = inside_ ? mass / made_.volume : mass / (made_.area * material_->thickness);
-        length_ = extentAlong(spread.axis);
+        const double volume = inside_ ? made_.volume : made_.area * material_.thickness;
+        const double mass = options_.mass.value_or(material_.density * volume);
+        material_.density = mass / volume;
+        length_ = extentAlong(mesh_, spread.axis);
         // A plate has the modulus E / (1 - nu^2) and a section as thick as the sheet. A bent shape bends as a
         // whole.
-        const double plate = material_->thickness / std::sqrt(12 * (1 - 0.09));
+        const double plate = material_.thickness / std::sqrt(12 * (1 - 0.09));
         // The plate's radius is the least: a bulky shape, too, may have its mass in one plane.
         gyration_ = inside_ || bulky() ? std::max(spread.gyration, plate) : plate;
-        const std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
+        spread_ = spread;
+        std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
+        clamp_ = clampOf(mesh_, pinnedOf(mesh_, options_.pins), spread_);
+        // What is clamped is held up to there, and no further.
+        if (clamp_)
+            for (size_t i = 0; i < pinned.size(); ++i)
+                pinned[i] = fromClamp(coarse_.positions[i]) < 1e-6 * length_;
         const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
         for (size_t i = 0; i < coarse_.positions.size(); ++i) {
             Vertex vertex;
@@ -191,45 +220,7 @@ class Maker {
         for (const glm::ivec3& t : coarse_.triangles)
             molecule().triangles.push_back({t.x, t.y, t.z});
         molecule().name = options_.name;
-        chooseLooks();
-    }
-
-    // The means over vertices and over the triangles of parts: what a molecule has for all of them.
-    void chooseLooks() {
-        Material& looks = molecule().material;
-        glm::dvec3 color(1);
-        if (!mesh_.colors.empty()) {
-            color = glm::dvec3(0);
-            for (const glm::dvec3& vertexColor : mesh_.colors)
-                color += glm::clamp(vertexColor, 0.0, 1.0) / double(mesh_.colors.size());
-        }
-        glm::dvec3 factor(0);
-        double roughness = 0, metallic = 0;
-        int known = 0;
-        for (const Mesh::Part& part : mesh_.parts) {
-            if (part.look < 0) continue;
-            const SurfaceMaterial& material = mesh_.materials[size_t(part.look)];
-            factor += double(part.triangleCount) * glm::dvec3(material.color);
-            roughness += part.triangleCount * material.roughness;
-            metallic += part.triangleCount * material.metallic;
-            known += part.triangleCount;
-        }
-        const auto rounded3 = [](double value) { return std::round(value * 1e3) / 1e3; };
-        const bool said = !mesh_.colors.empty() || (known > 0 && factor != glm::dvec3(known));
-        if (known > 0) color *= factor / double(known);
-        if (said) looks.color = glm::round(color * 1e3) / 1e3;
-        if (known == 0) return;
-        if (roughness != known * SurfaceMaterial().roughness) looks.roughness = rounded3(roughness / known);
-        looks.metallic = rounded3(metallic / known);
-    }
-
-    double extentAlong(const glm::dvec3& axis) const {
-        double low = 1e300, high = -1e300;
-        for (const glm::dvec3& p : mesh_.weldedPositions) {
-            low = std::min(low, glm::dot(p, axis));
-            high = std::max(high, glm::dot(p, axis));
-        }
-        return high - low;
+        chooseLooks(mesh_, molecule().material);
     }
 
     // A surface that encloses nothing and still has three extents, a shell, or is held by cells.
@@ -256,8 +247,8 @@ class Maker {
 
     void makeSprings() {
         SpringPairs pairs;
-        if (options_.rings) {
-            pairs = springsOfRings(*options_.rings);
+        if (rings_ > 0) {
+            pairs = springsOfRings(rings_);
         } else if (cells_.empty()) {
             pairs = springsOf(coarse_, inside_.get());
         } else {
@@ -270,7 +261,7 @@ class Maker {
         addSprings(pairs.shears, made_.shears);
         addSprings(pairs.bends, made_.bends);
         addSprings(pairs.braces, made_.braces);
-        const Bracing bracing = brace(molecule(), inside_.get());
+        const Bracing bracing = brace(molecule(), inside_.get(), !regular_);
         addSprings(bracing.added, made_.repairs);
         if (made_.repairs > 0)
             made_.notes.push_back(concat(made_.repairs, made_.repairs == 1 ? " spring was" : " springs were",
@@ -280,24 +271,90 @@ class Maker {
                 concat(bracing.left, " motions stay without stiffness: no pair of vertices resists them"));
     }
 
-    // All springs by one factor, so that the lowest frequency is the material's; damping likewise.
+    // As the beam that the mesh is; else all springs by one factor, so that the lowest frequency is as asked
+    // or that of a bar.
     void scaleStiffness() {
-        const double target =
-            options_.frequency.value_or(lowestFrequency(material_->modulus, density_, length_, gyration_));
-        const Analysis unit = analyse(molecule(), false);
-        if (!(unit.lowestFrequency > 0)) throw Error("the springs leave nothing that could swing");
+        if (!options_.frequency && !standsForBeam())
+            made_.notes.push_back(
+                "it is no beam: its lowest frequency is that of a bar of its length and thickness");
+        if (!made_.beam) {
+            const double target = options_.frequency.value_or(
+                lowestFrequency(material_.modulus, material_.density, length_, gyration_));
+            const Analysis unit = analyse(molecule(), false);
+            if (!(unit.lowestFrequency > 0)) throw Error("the springs leave nothing that could swing");
+            for (Spring& spring : molecule().springs)
+                spring.stiffness *= std::pow(2 * pi * target / unit.lowestFrequency, 2);
+        }
+        for (Spring& spring : molecule().springs)
+            spring.stiffness = rounded(spring.stiffness, 4);
+        const Analysis analysis = analyse(molecule(), false);
         // C = beta K: the ratio of a mode grows with its frequency. Beyond half of critical it would cost
         // steps, and show nothing.
         constexpr double mostRatio = 0.5;
         made_.dampingRatio = options_.damping.value_or(
-            std::min(material_->damping, mostRatio * unit.lowestFrequency / unit.highestFrequency));
-        const double wanted = 2 * pi * target;
-        const double factor = wanted * wanted / (unit.lowestFrequency * unit.lowestFrequency);
-        for (Spring& spring : molecule().springs) {
-            spring.stiffness = rounded(factor * spring.stiffness, 4);
-            spring.damping = rounded(2 * made_.dampingRatio / wanted * spring.stiffness, 4);
+            std::min(material_.damping, mostRatio * analysis.lowestFrequency / analysis.highestFrequency));
+        for (Spring& spring : molecule().springs)
+            spring.damping = rounded(2 * made_.dampingRatio / analysis.lowestFrequency * spring.stiffness, 4);
+        made_.lowestFrequency = hertz(analysis.lowestFrequency);
+    }
+
+    bool standsForBeam() {
+        const std::vector<Spring> before = molecule().springs;
+        try {
+            if (fitToBeam()) return true;
+        } catch (const Error&) {  // some motion has no stiffness
         }
-        made_.lowestFrequency = analyse(molecule(), false).lowestFrequency / (2 * pi);
+        molecule().springs = before;
+        made_.beam.reset();
+        return false;
+    }
+
+    bool fitToBeam() {
+        const BeamMaterial material{material_.modulus, material_.density, inside_ ? 0 : material_.thickness};
+        const Beam beam = beamOf(inside_ ? body_ : shape_, spread_, material);
+        constexpr double slender = 4;  // length by thickness
+        const double thickness = std::sqrt(12) * gyration_, mass = molecule().mass();
+        double sum = 0;
+        for (const double slice : beam.mass)
+            sum += slice;
+        // The masses of a mesh whose triangles face both ways are not its own.
+        if (!beam.whole() || length_ < slender * thickness || std::abs(sum - mass) > 0.05 * mass)
+            return false;
+        shapeStiffness(molecule(), beam, spread_);
+        if (!(freeFigures(molecule(), beam, spread_, 1).front().molecule > 0)) return false;
+        fitFree(molecule(), beam, spread_);
+        StandsFor& out = made_.beam.emplace();
+        out.material = material;
+        out.free = freeFigures(molecule(), beam, spread_, 1).front();
+        if (!clamp_) return true;
+        while (analyse(molecule(), true).rigidModes > 0)
+            pinNextRow();
+        // Each factor changes a little of what the other is for.
+        constexpr int fewest = 3, rounds = 12;
+        constexpr double near = 0.01;
+        for (int round = 0; round < rounds; ++round) {
+            fitClamped(molecule(), beam, spread_, *clamp_);
+            out.free = freeFigures(molecule(), beam, spread_, 1).front();
+            if (round + 1 == rounds || (round + 1 >= fewest && std::abs(out.free.error()) < near)) break;
+            fitFree(molecule(), beam, spread_);
+        }
+        out.clamped = clampedFigures(molecule(), beam, spread_, *clamp_, 1);
+        out.reach = (clamp_->turned ? -beam.low : beam.high()) - clamp_->place;
+        return true;
+    }
+
+    // m, from the pinned end of what is clamped.
+    double fromClamp(const glm::dvec3& place) const {
+        const double along = glm::dot(place, spread_.axis);
+        return (clamp_->turned ? -along : along) - clamp_->place;
+    }
+
+    void pinNextRow() {  // what is clamped must not turn about a line of vertices
+        double nearest = 1e300;
+        for (const Vertex& vertex : molecule().vertices)
+            if (!vertex.pinned) nearest = std::min(nearest, fromClamp(vertex.position));
+        for (Vertex& vertex : molecule().vertices)
+            vertex.pinned = vertex.pinned || fromClamp(vertex.position) < nearest + 1e-3 * length_;
     }
 
     void addSkin() {
@@ -338,51 +395,19 @@ class Maker {
     Mesh mesh_;   // all of it
     Mesh shape_;  // without what is there twice
     std::unique_ptr<Inside> inside_;
-    const ScaledMaterial* material_ = nullptr;
+    ScaledMaterial material_{};  // as asked
     CoarseMesh coarse_;
     std::vector<std::array<int, 4>> cells_;
-    double density_ = 0, length_ = 0, gyration_ = 0;
+    Mesh body_;  // shape_ without holes
+    MassSpread spread_;
+    std::optional<Clamp> clamp_;  // by the pins
+    double length_ = 0, gyration_ = 0;
+    int rings_ = 0;
+    bool regular_ = false;  // in rings or rows
     MadeMolecule made_;
 };
 
 }  // namespace
-
-void checkOptions(const FromMesh& o) {
-    const auto above = [](const char* what, const std::optional<double>& value, double most,
-                          const char* unit) {
-        if (value && !(*value > 0 && *value <= most))
-            throw Error(what, ": expected a number above 0, at most ", most, unit, ", found ", *value);
-    };
-    above("size", o.size, 1e5, " m");
-    above("mass", o.mass, 1e9, " kg");
-    above("density", o.density, 1e5, " kg/m^3");
-    above("frequency", o.frequency, 1e5, " Hz");
-    if (o.damping && !(*o.damping >= 0 && *o.damping <= 2))
-        throw Error("damping: expected a ratio from 0 to 2, found ", *o.damping);
-    if (!o.material.empty()) {
-        try {
-            scaledMaterial(o.material);
-        } catch (const Error& error) {
-            throw Error("material: ", error.message());
-        }
-    }
-    if (o.mass && o.density) throw Error("mass: expected either a mass or a density, found both");
-    const int64_t asked = o.rings ? 4 * int64_t(*o.rings) : o.vertices.value_or(usualMadeVertices);
-    if (o.skinTriangles && *o.skinTriangles < 4)
-        throw Error("skin-triangles: expected at least 4, found ", *o.skinTriangles);
-    if (o.skinTriangles && !o.skin)
-        throw Error("skin-triangles: expected either triangles of the skin or no skin, found both");
-    if (o.rings && *o.rings < 2) throw Error("rings: expected at least 2, found ", *o.rings);
-    if (!o.rings && asked < leastMadeVertices)
-        throw Error("vertices: expected at least ", leastMadeVertices, ", found ", asked);
-    if (asked > mostMadeVertices)
-        throw Error(o.rings ? "rings" : "vertices", ": a molecule of ", asked,
-                    " vertices takes too long to make: at most ", mostMadeVertices,
-                    o.rings ? concat(", which are ", mostMadeVertices / 4, " rings") : "");
-    if (o.rings && (o.springs == FromMesh::Springs::lattice || o.springs == FromMesh::Springs::cage))
-        throw Error("rings: expected either rings or a ",
-                    o.springs == FromMesh::Springs::cage ? "cage" : "lattice", ", found both");
-}
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     checkOptions(options);

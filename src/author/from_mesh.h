@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "author/beam_fit.h"
 #include "geometry/mesh.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule.h"
@@ -70,6 +71,8 @@ struct FromMesh {
     std::optional<double> size;         // m, of the longest side of its box; nothing: the file's
     std::optional<double> mass;         // kg, in all; nothing: from the material's density
     std::optional<double> density;      // kg/m^3, instead of the material's
+    std::optional<double> modulus;      // Pa, Young's, instead of the material's
+    std::optional<double> thickness;    // m, of a sheet, instead of the material's
     std::optional<double> frequency;    // Hz, the lowest; nothing: from the material
     std::optional<double> damping;      // ratio of the lowest mode; nothing: the material's
     bool centre = false;                // the middle of its box to the origin, as of a mesh far away
@@ -87,6 +90,14 @@ constexpr int leastMadeVertices = 4, usualMadeVertices = 24, mostMadeVertices = 
 constexpr int cageVertices =
     40;  // which CPU rasterisers compile with the implicit solvers that stiff springs need
 
+// What a molecule is to bend like, and how near it comes.
+struct StandsFor {
+    BeamMaterial material{};
+    Likeness free{};                          // Hz, lowest bending of what nothing holds
+    std::optional<ClampedFigures> clamped{};  // with its pins, where they hold one end
+    double reach = 0;                         // m, from there to the other end
+};
+
 struct MadeMolecule {
     Molecule molecule;
     // Springs by kind; they are stored in this order.
@@ -101,6 +112,7 @@ struct MadeMolecule {
     double skinReach = 0;            // m, from the skin to the nearest simulated vertex, at most
     double skinLever = 0;            // how far the skin moves by how far a vertex does, at most
     std::string material;            // as used
+    std::optional<StandsFor> beam;   // nothing: it is no beam, or its frequency was asked for
     std::vector<std::string> notes;  // what was done that was not asked for
     std::optional<Image> image;      // the skin's colours, by its texture coordinates
 };
@@ -119,6 +131,8 @@ MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options);
 // leaves none, the one with the largest share. A rule that no vertex meets, a name that is not there or a
 // colour that is not painted: Error.
 std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const PinChoice& choice);
+// The welded vertices that rules, names and paints mean. Error: choosePins's.
+std::vector<bool> pinnedOf(const Mesh& mesh, const PinChoice& choice);
 
 // Returns the mesh that becomes a skin. Corners share a vertex where place and uv agree and the normals
 // differ by at most 40 degrees; triangles with two corners in one vertex are left out. With `triangles`, the
@@ -131,6 +145,9 @@ SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles);
 // of the mesh has one colour, it stays as it is and nothing is returned. `notes` says what the image does not
 // show.
 std::optional<Image> gatherColors(Mesh& mesh, std::vector<std::string>& notes);
+
+// Gives a molecule the mean colour of a mesh and of its materials, and their roughness and metallic share.
+void chooseLooks(const Mesh& mesh, Material& looks);
 
 // The skin that hangs on the corners of the cell, of these of the molecule, that holds each of its vertices,
 // or is nearest to it.
@@ -153,7 +170,7 @@ const ScaledMaterial& scaledMaterial(const std::string& name);
 
 // The lowest frequency of a free body or sheet of a material, Hz: of bending, as a beam that is free at both
 // ends
-//   (4.730^2 / 2 pi) sqrt(EI / (mass / length)) / length^2     (Euler and Bernoulli; Blevins, table 8-1)
+//   (4.730^2 / 2 pi) sqrt(EI / (mass / length)) / length^2     (Euler and Bernoulli [Blevins 1979])
 // and no higher than that of stretching, sqrt(E / density) / (2 length).
 // `length` m; `gyration` m: of the section about the axis that it bends about most easily; `density` kg/m^3.
 double lowestFrequency(double modulus, double density, double length, double gyration);

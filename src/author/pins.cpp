@@ -80,7 +80,9 @@ std::string namesIn(const Mesh& mesh) {
     return all.size() > 12 ? out + ", ..." : out;
 }
 
-Marks marksOf(const Mesh& mesh, const PinChoice& choice) {
+}  // namespace
+
+std::vector<bool> pinnedOf(const Mesh& mesh, const PinChoice& choice) {
     Marks marks(mesh.weldedPositions.size());
     for (const PinRule& rule : choice.rules)
         if (!mark(marks, mesh, rule)) throw Error("no vertex of the mesh meets ", rule.text);
@@ -95,8 +97,6 @@ Marks marksOf(const Mesh& mesh, const PinChoice& choice) {
             throw Error("no vertex of the mesh is painted ", paint);
     return marks;
 }
-
-}  // namespace
 
 PinRule parsePinRule(const std::string& text) {
     PinRule rule;
@@ -157,7 +157,7 @@ std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const P
         const auto nearest = std::min_element(coarse.positions.begin(), coarse.positions.end(), nearer);
         pinned[size_t(nearest - coarse.positions.begin())] = true;
     }
-    const Marks marks = marksOf(mesh, choice);
+    const Marks marks = pinnedOf(mesh, choice);
     if (std::find(marks.begin(), marks.end(), true) == marks.end()) return pinned;
     std::vector<int> marked(pinned.size()), all(pinned.size());
     for (size_t v = 0; v < marks.size(); ++v) {

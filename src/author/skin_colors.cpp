@@ -242,4 +242,31 @@ std::optional<Image> gatherColors(Mesh& mesh, std::vector<std::string>& notes) {
     return Gathering(mesh, notes).run();
 }
 
+void chooseLooks(const Mesh& mesh, Material& looks) {
+    glm::dvec3 color(1);
+    if (!mesh.colors.empty()) {
+        color = glm::dvec3(0);
+        for (const glm::dvec3& vertexColor : mesh.colors)
+            color += glm::clamp(vertexColor, 0.0, 1.0) / double(mesh.colors.size());
+    }
+    glm::dvec3 factor(0);
+    double roughness = 0, metallic = 0;
+    int known = 0;
+    for (const Mesh::Part& part : mesh.parts) {
+        if (part.look < 0) continue;
+        const SurfaceMaterial& material = mesh.materials[size_t(part.look)];
+        factor += double(part.triangleCount) * glm::dvec3(material.color);
+        roughness += part.triangleCount * material.roughness;
+        metallic += part.triangleCount * material.metallic;
+        known += part.triangleCount;
+    }
+    const auto rounded3 = [](double value) { return std::round(value * 1e3) / 1e3; };
+    const bool said = !mesh.colors.empty() || (known > 0 && factor != glm::dvec3(known));
+    if (known > 0) color *= factor / double(known);
+    if (said) looks.color = glm::round(color * 1e3) / 1e3;
+    if (known == 0) return;
+    if (roughness != known * SurfaceMaterial().roughness) looks.roughness = rounded3(roughness / known);
+    looks.metallic = rounded3(metallic / known);
+}
+
 }  // namespace shoal

@@ -193,7 +193,7 @@ Softest softest(const Molecule& m) {
 
 }  // namespace
 
-Bracing brace(Molecule m, const Inside* inside) {
+Bracing brace(Molecule m, const Inside* inside, bool hardly) {
     Bracing out;
     if (m.vertices.size() < 2 || m.vertices.size() > mostDense) return out;
     double strength = 0;  // as other springs have it on the average
@@ -226,7 +226,7 @@ Bracing brace(Molecule m, const Inside* inside) {
     // what is held, but hardly: as long as it helps
     constexpr double wanted = 2e-4, gain = 1.2;
     constexpr size_t mostVertices = 100, most = 24;
-    if (out.left > 0 || m.vertices.size() > mostVertices) return out;
+    if (!hardly || out.left > 0 || m.vertices.size() > mostVertices) return out;
     Softest current = softest(m);
     for (size_t i = 0; i < std::min(most, m.vertices.size() / 2) && current.value < wanted; ++i) {
         const Pair pair = finder.find(current.motion);

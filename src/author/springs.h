@@ -32,10 +32,11 @@ SpringPairs springsOf(const CoarseMesh& coarse, const Inside* inside);
 
 // Adds springs until nothing but rigid motion is without stiffness; of all pairs each time the one that
 // resists the softest motion most for its length. `molecule` has vertices with masses and all springs so far.
+// `hardly`: what is held, but hardly, gets more.
 struct Bracing {
     std::vector<Pair> added;
     int left = 0;  // motions that no pair resists: of what is flat
 };
-Bracing brace(Molecule molecule, const Inside* inside);
+Bracing brace(Molecule molecule, const Inside* inside, bool hardly);
 
 }  // namespace shoal

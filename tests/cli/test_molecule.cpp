@@ -38,6 +38,28 @@ TEST_CASE("molecule from-mesh: writes a molecule that check accepts", "[cli][mol
     CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"fish.json"});
 }
 
+TEST_CASE("molecule from-mesh: says which beam it stands for", "[cli][molecule]") {
+    const Words words = {"molecule", "from-mesh", minnow, "--rings", "6",    "--modulus",
+                         "2e5",      "--density", "1000", "--pin",   "z>0.8"};
+    const Outcome made = runShoal(words);
+    INFO(made.out);
+    REQUIRE(made.code == 0);
+    for (const char* part : {"stands for a body, E = 0.2 MPa, 1000 kg/m^3: free, its first frequency is ",
+                             " Hz, the beam's ", "; held by its pins, with ", " mm free, it sags by "})
+        CHECK(made.out.find(part) != std::string::npos);
+    Words json = words;
+    json.push_back("--json");
+    const JsonValue report = runShoal(json).json(), beam = member(report, "standsFor");
+    CHECK(member(beam, "modulus").number == 2e5);
+    for (const char* figure : {"free", "sag", "clamped"}) {
+        const JsonValue found = member(beam, figure);
+        CHECK(member(found, "molecule").number == Approx(member(found, "beam").number).epsilon(0.05));
+    }
+    json.insert(json.end(), {"--frequency", "5"});
+    json.erase(json.begin() + 5, json.begin() + 7);
+    CHECK(runShoal(json).json().find("standsFor") == nullptr);
+}
+
 TEST_CASE("molecule from-mesh: the shipped minnow is what its command makes", "[cli][molecule]") {
     const Scratch scratch;
     const std::string out = scratch.path("minnow.json");
@@ -198,6 +220,10 @@ TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
     refuses({open, "--size", "0"}, "--size: expected a number above 0");
     refuses({open, "--size", "nan"}, "--size: expected a number above 0");
     refuses({open, "--mass", "heavy"}, "expected a number");
+    refuses({open, "--modulus", "-1"}, "--modulus: expected a number above 0");
+    refuses({open, "--frequency", "5", "--thickness", "1e-3"},
+            "--frequency: expected either a frequency or a thickness, found both");
+    refuses({minnow, "--thickness", "1e-3"}, "minnow.obj: a body is as thick as it is");
     refuses({open, "--material", "leef"}, "did you mean \"leaf\"");
     refuses({open, "--pin", "y=1"}, "--pin: expected a rule such as y<0.1");
     refuses({open, "--pin-name", "cup"}, "no object, mesh, material or bone \"cup\"; it has tray");

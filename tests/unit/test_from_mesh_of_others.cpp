@@ -36,6 +36,12 @@ TEST_CASE("what makes no molecule is refused with its reason", "[from-mesh]") {
     CHECK(with([](FromMesh& o) { o.material = "flush"; }).find("did you mean \"flesh\"") !=
           std::string::npos);
     CHECK(with([](FromMesh& o) { o.mass = o.density = 1; }).find("either") != std::string::npos);
+    CHECK(with([](FromMesh& o) { o.modulus = o.frequency = 5; }) ==
+          "frequency: expected either a frequency or a modulus, found both");
+    CHECK(with([](FromMesh& o) { o.thickness = o.frequency = 0.1; }) ==
+          "frequency: expected either a frequency or a thickness, found both");
+    CHECK(with([](FromMesh& o) { o.modulus = 0; }).find("modulus: expected a number above 0") == 0);
+    CHECK(with([](FromMesh& o) { o.thickness = 1e-3; }).find("a body is as thick as it is") == 0);
     Mesh point = square(0);
     CHECK(refused(point, {}).find("in one place") != std::string::npos);
     options = {};

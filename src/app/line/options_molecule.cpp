@@ -28,6 +28,8 @@ void addMaking(CLI::App& command, Options& options) {
         ->type_name(joined(names, "|"));
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");
+    number("--modulus", make.modulus, "Pa, Young's modulus, instead of the material's");
+    number("--thickness", make.thickness, "m, of a sheet, instead of the material's");
     number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");
     number("--damping", make.damping, "Ratio of the lowest frequency, instead of the material's");
     addReads(command, "--pin",

@@ -111,6 +111,26 @@ std::string asText(const Trial& trial) {
                       : "");
 }
 
+std::string asText(const StandsFor& beam) {
+    const BeamMaterial& material = beam.material;
+    std::string out = concat(
+        material.thickness > 0 ? concat("a sheet of ", round3(1000 * material.thickness), " mm") : "a body",
+        ", E = ", round3(material.modulus / 1e6), " MPa, ", round3(material.density),
+        " kg/m^3: free, its first frequency is ", round3(beam.free.molecule), " Hz, the beam's ",
+        round3(beam.free.beam));
+    if (!beam.clamped) return out;
+    const Likeness &sag = beam.clamped->sag, &first = beam.clamped->frequencies.front();
+    constexpr double small =
+        0.2;  // of the length; beyond, a sag to first order is no length that can be seen
+    out += concat("; held by its pins, with ", round3(1000 * beam.reach), " mm free, ");
+    out += sag.beam < small * beam.reach
+               ? concat("it sags by ", round3(1000 * sag.molecule), " mm under its weight, the beam by ",
+                        round3(1000 * sag.beam))
+               : concat("it sags by ", round3(100 * sag.molecule / sag.beam), " % of what the beam does");
+    return concat(out, ", and its first frequency is ", round3(first.molecule), " Hz, the beam's ",
+                  round3(first.beam));
+}
+
 constexpr double frameSeconds = 1.0 / 60;  // s
 
 int substeps(const Report& report) {
@@ -136,6 +156,7 @@ std::string asText(const Report& r) {
     out += concat("\n  ", many(molecule.springs.size(), "spring", "springs"), ": ", made.edges, " edges, ",
                   made.shears, " shear, ", made.bends, " bending, ", made.braces, " through the inside, ",
                   made.repairs, " repairs");
+    if (made.beam) out += "\n  stands for " + asText(*made.beam);
     const double highest = hertz(r.analysis.highestFrequency);
     out += concat("\n  frequencies ", round3(made.lowestFrequency), " to ", round3(highest),
                   " Hz, damping ratio ", round3(made.dampingRatio), " to ",
@@ -167,6 +188,21 @@ JsonValue asJson(const Warning& warning) {
     return toJson(text(warning));
 }
 
+JsonValue asJson(const Likeness& figure) {
+    return object(key("molecule", figure.molecule), key("beam", figure.beam));
+}
+
+JsonValue asJson(const StandsFor& beam) {
+    JsonValue out = object(key("modulus", beam.material.modulus), key("density", beam.material.density));
+    if (beam.material.thickness > 0) append(out, key("thickness", beam.material.thickness));
+    append(out, key("free", asJson(beam.free)));
+    if (!beam.clamped) return out;
+    append(out, key("reach", beam.reach));
+    append(out, key("sag", asJson(beam.clamped->sag)));
+    append(out, key("clamped", asJson(beam.clamped->frequencies.front())));
+    return out;
+}
+
 JsonValue asJson(const Report& r) {
     const MadeMolecule& made = r.made;
     const Molecule& molecule = made.molecule;
@@ -187,6 +223,7 @@ JsonValue asJson(const Report& r) {
         key("skinError", made.skinError / molecule.size()),
         key("skinReach", made.skinReach / glm::length(made.extent)), key("skinLever", made.skinLever),
         key("notes", made.notes), key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
+    if (made.beam) append(out, key("standsFor", asJson(*made.beam)));
     if (r.trial && r.trial->untried.empty())
         append(out, key("trial", object(key("solver", r.trial->solver), key("substeps", r.trial->substeps),
                                         key("change", r.trial->change), key("speed", r.trial->speed))));
