@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compile/plan.h"
 #include "core/random.h"
 #include "molecule/analysis.h"
 #include "molecule/draft.h"
@@ -201,4 +202,15 @@ TEST_CASE("a draft keeps the bends of the vertices that are left", "[bends]") {
     const Bend& left = draft.molecule.bends[0];
     CHECK(std::array{left.a, left.b, left.c, left.d} == std::array{2, 1, 0, 3});
     CHECK(left.stiffness == 5);
+}
+
+TEST_CASE("a run refuses bends, which no solver on the device takes", "[bends]") {
+    Scene scene;
+    Group& group = scene.groups.emplace_back();
+    group.molecule = wing(0.4);
+    group.location = {"sheet.scene.json", 3, 5, "$.groups[0]"};
+    CHECK_THROWS_WITH(compile(scene),
+                      Catch::StartsWith("sheet.scene.json:3:5: bends are not simulated yet: fold the sheet instead"));
+    group.molecule.bends.clear();
+    CHECK_NOTHROW(compile(scene));
 }
