@@ -39,7 +39,8 @@ static State scattered(const Molecule& molecule, double share) {
     return out;
 }
 
-TEST_CASE("a bend resists the angle between its triangles, 2 sin(t/2) of which is what it measures", "[bends]") {
+TEST_CASE("a bend resists the angle between its triangles, 2 sin(t/2) of which is what it measures",
+          "[bends]") {
     const Molecule flat = wing(0);
     const WeightedSpring bend = weighted(flat, flat.bends[0]);
     CHECK(bend.restLength == 0);
@@ -116,8 +117,8 @@ static Molecule strip(int cells, double length, double width, double mass, doubl
     return out;
 }
 
-// Euler-Bernoulli: a free beam bends at 4.730^2 sqrt(E I / (m/l)) / l^2; hinges a distance apart are E I of their
-// stiffness times the distance.
+// Euler-Bernoulli: a free beam bends at 4.730^2 sqrt(E I / (m/l)) / l^2; hinges a distance apart are E I of
+// their stiffness times the distance.
 TEST_CASE("a strip of hinges bends at the frequency of a free beam", "[bends]") {
     const double length = 1, mass = 0.1, stiffness = 0.02;
     double before = 0;
@@ -155,8 +156,7 @@ static Molecule parsed(const std::string& bends, const char* vertex = "[0, 1, 0]
 }
 
 TEST_CASE("bends are read and written", "[bends]") {
-    const Molecule molecule =
-        parsed(R"([{"a": 0, "b": 1, "c": 2, "d": 3, "stiffness": 2, "damping": 0.5}])");
+    const Molecule molecule = parsed(R"([{"a": 0, "b": 1, "c": 2, "d": 3, "stiffness": 2, "damping": 0.5}])");
     REQUIRE(molecule.bends.size() == 1);
     CHECK(molecule.places.bends.size() == 1);
     const Molecule again = parseMolecule(writeMolecule(molecule), "again.json");
@@ -181,8 +181,7 @@ TEST_CASE("bends that mean nothing are refused where they stand", "[bends]") {
                Catch::StartsWith("$.bends[0].d: vertex index 9 is out of range"));
     CHECK_THAT(message(R"([{"a": 0, "b": 1, "c": 2, "d": 1, "stiffness": 2}])"),
                Catch::StartsWith("$.bends[0].d: a bend needs four different vertices"));
-    CHECK_THAT(message(R"([{"a": 0, "b": 1, "c": 2, "d": 3}])"),
-               Catch::Contains("stiffness"));
+    CHECK_THAT(message(R"([{"a": 0, "b": 1, "c": 2, "d": 3}])"), Catch::Contains("stiffness"));
     CHECK_THAT(message(R"([{"a": 0, "b": 1, "c": 2, "d": 3, "stiffness": -1}])"),
                Catch::StartsWith("$.bends[0].stiffness"));
     CHECK_THAT(message("[" + good + "]", "[2, 0, 0]"),
@@ -209,8 +208,9 @@ TEST_CASE("a run refuses bends, which no solver on the device takes", "[bends]")
     Group& group = scene.groups.emplace_back();
     group.molecule = wing(0.4);
     group.location = {"sheet.scene.json", 3, 5, "$.groups[0]"};
-    CHECK_THROWS_WITH(compile(scene),
-                      Catch::StartsWith("sheet.scene.json:3:5: bends are not simulated yet: fold the sheet instead"));
+    CHECK_THROWS_WITH(
+        compile(scene),
+        Catch::StartsWith("sheet.scene.json:3:5: bends are not simulated yet: fold the sheet instead"));
     group.molecule.bends.clear();
     CHECK_NOTHROW(compile(scene));
 }
