@@ -380,9 +380,10 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
     const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
     std::optional<Search> search;
-    Calibration out =
-        touching ? calibrateContact(scene, options, device) : search.emplace(scene, options, device).run();
-    const bool whole = search ? !search->late() && !search->hurried() : hasWholeKey(scene);
+    bool whole = false;
+    Calibration out = touching ? calibrateContact(scene, options, device, whole)
+                               : search.emplace(scene, options, device).run();
+    whole = search ? !search->late() && !search->hurried() : whole && hasWholeKey(scene);
     out.seconds = secondsSince(start);
     if (whole) keepCalibration(options.folder, key, out);
     return out;

@@ -78,9 +78,10 @@ struct Calibration {
 // reference; or the error is below what single floats hold, which is told before anything is measured.
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device);
 
-// Chooses for contact between molecules. Error: as calibrate().
+// Chooses for contact between molecules. `whole`: no point of the curve was left out for want of time.
+// Error: as calibrate().
 Calibration calibrateContact(const Scene& scene, const CalibrationOptions& options,
-                             const AccuracyDevice& device);
+                             const AccuracyDevice& device, bool& whole);
 
 // The scene with what was found.
 void apply(const Calibration& calibration, Scene& scene);

@@ -5,7 +5,7 @@
 namespace shoal::measure {
 
 Calibration calibrateContact(const Scene& scene, const CalibrationOptions& options,
-                             const AccuracyDevice& device) {
+                             const AccuracyDevice& device, bool& whole) {
     if (!options.solvers.empty() || !options.samplings.empty())
         throw Error(
             "--error chooses the substeps and iterations of contact where molecules touch, and no "
@@ -24,8 +24,12 @@ Calibration calibrateContact(const Scene& scene, const CalibrationOptions& optio
     };
     const ContactPoint *best = nullptr, *nearest = nullptr;
     size_t tried = 0, within = 0;
+    whole = true;
     for (const ContactPoint& point : curve.points) {
-        if (!measured(point)) continue;
+        if (!measured(point)) {
+            whole = whole && (point.outcome == Outcome::refused || point.outcome == Outcome::notFinite);
+            continue;
+        }
         ++tried;
         if (!nearest || point.errors.overlap < nearest->errors.overlap) nearest = &point;
         if (point.errors.overlap > options.error) continue;
@@ -37,7 +41,7 @@ Calibration calibrateContact(const Scene& scene, const CalibrationOptions& optio
         concat(many(nearest->substeps, "substep", "substeps"), " with ",
                many(nearest->iterations, "iteration", "iterations"), ", where spheres overlap by ",
                formatted("%.2g", nearest->errors.overlap), " of their radius, RMS");
-    if (!best && tried < curve.points.size() && !curve.notes.empty())
+    if (!best && !whole)
         throw Error(place, concat("--error ", options.error, ": no step of contact was found to hold it in ",
                                   *options.seconds, " s: give it more time with ", options.limitOption,
                                   "; the nearest by then is ", found));

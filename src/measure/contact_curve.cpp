@@ -100,7 +100,6 @@ class ContactSweep {
 
     void describe(const Plan& plan) {
         std::set<std::string> solvers;
-        double weight = 0;
         for (const GroupPlan& group : plan.groups) {
             solvers.insert(name(group.solver));
             out_.molecules += group.count;
@@ -111,10 +110,9 @@ class ContactSweep {
         out_.spheres = plan.contact.spheres;
         for (const ContactGroup& group : plan.contact.groups) {
             const GroupPlan& own = plan.groups[group.group];
-            weight += own.count * scene_.groups[own.index].molecule.mass() * glm::length(scene_.gravity) *
-                      group.radius;
+            leastEnergy_ += own.count * scene_.groups[own.index].molecule.mass() *
+                            glm::length(scene_.gravity) * group.radius;
         }
-        leastEnergy_ = weight;
     }
 
     void choosePoints(const Plan& plan) {
