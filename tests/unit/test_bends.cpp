@@ -207,6 +207,7 @@ TEST_CASE("a run refuses bends, which no solver on the device takes", "[bends]")
     Scene scene;
     Group& group = scene.groups.emplace_back();
     group.molecule = wing(0.4);
+    group.count = 1;
     group.location = {"sheet.scene.json", 3, 5, "$.groups[0]"};
     CHECK_THROWS_WITH(
         compile(scene),
