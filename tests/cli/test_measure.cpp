@@ -345,7 +345,6 @@ TEST_CASE("measure --contact reports as text, JSON and CSV", "[cli]") {
                Catch::Contains("iterations of contact; over 1 s spheres"));
     CHECK_THAT(runShoal(asked, cacheIn(scratch)).out, Catch::Contains("as found before"));
     refusal({"measure", squaresScene(), "--contact"}, "there is no contact to measure");
-    refusal({"measure", squaresScene(), "--substeps", "4"}, "--substeps needs --statistics or --contact");
     refusal({"measure", scene, "--contact", "--iterations", "300"},
             "--iterations: expected a whole number from 1 to 256");
 }
@@ -416,7 +415,7 @@ TEST_CASE("measure --statistics refuses what it cannot do", "[cli]") {
     refusal({"measure", scene, "--statistics", "--seeds", "1"},
             "--seeds: expected a whole number from 2 to 10000, found \"1\"");
     refusal({"measure", scene, "--seeds", "4"}, "--seeds requires --statistics");
-    refusal({"measure", scene, "--substeps", "4"}, "--substeps requires --statistics");
+    refusal({"measure", scene, "--substeps", "4"}, "--substeps needs --statistics or --contact");
     refusal({"measure", scene, "--statistics", "--substeps", "0"},
             "--substeps: expected a whole number from 1 to 1000, found \"0\"");
     refusal({"measure", scene, "--statistics", "--error", "1e-3"}, "--error");
